@@ -4,10 +4,9 @@
 // A frame on the line: MA, and what SL says, from the first edge of MA to the last bit.
 //
 // Clock domain: core; sl_i is asynchronous. start_i begins a frame; MA falls half an MA period
-// later. over_o is high for one clock, five edges of clk_i behind the one that takes the last
-// sample into account (three clocks after the clock of its sample); found_o then stays until the
-// next start. rests_o: MA does not move. latch_o is high in the clock that ends with the first
-// rising edge of MA.
+// later. over_o is high for one clock, three clocks behind the last sample; found_o then stays
+// until the next start, its point until update_i or forget_i. rests_o: MA does not move. latch_o is
+// high in the clock that ends with the first rising edge of MA.
 //
 // MA has 5 rising edges, one for each period of processing time, one for each bit of position, nE,
 // nW and CRC, whatever the line delay. With CDM = 1 the last one is not sent, and MA stays 0 until
@@ -16,8 +15,8 @@
 // A frame ends
 // - with its last bit;
 // - without acknowledge, when the byte of n = 3 + bits periods, too, has been 0xFF;
-// - with more than proc_last_i + 1 zeros behind the acknowledge: MA returns to 1 at the end of its
-//   half period, what came before in position and CRC is kept by whoever wants it;
+// - with more than proc_max_i zeros behind the acknowledge: MA returns to 1 at the end of its half
+//   period;
 // - by stop_i: MA as before, over_o does not come.
 //
 // Misuse: start_i while rests_o is 0 or while a frame runs is not allowed: the core does not do it.
@@ -83,6 +82,8 @@ module pru_frame #(
   logic        unused_released, unused_release;
   logic [6:0]  line_q;
   logic [10:0] processing_q;
+  logic        zero;           // a period of processing
+  logic        one;            // the start bit
   logic        late;           // too much processing time
   logic        silent;         // no acknowledge
   logic [5:0]  left_q;         // bits of a part that have not come
@@ -95,8 +96,7 @@ module pru_frame #(
   logic        flag_nerr_q, flag_nwarn_q;
   logic        cds_q;
   logic        fits_q;         // the CRC bits so far fit
-  logic        acked_q, late_q;
-  logic [3:0]  point_q;
+  logic        late_q;
   logic        has_crc;
   logic        crc_top;
 
@@ -159,7 +159,7 @@ module pru_frame #(
     .clk_i,
     .rst_ni,
     .clear_i (forget_i),
-    .push_i  (update_i && acked_q),
+    .push_i  (update_i && acked),
     .off_i   (plan_i.mhz == pru_pkg::MHZ_10),
     .wrap_i  (quirks_i.sma_wrap),
     .place_i (place),
@@ -187,11 +187,12 @@ module pru_frame #(
   assign second = state_q == EDGES && rise && first_q;
   assign bits   = {1'b0, plan_i.data_bits} + {1'b0, plan_i.tail_bits};
   assign edges  = {1'b0, bits} + MORE_EDGES - 8'(plan_i.cdm);
-  assign enough = (seen_q || state_q == CDS) && ahead_q >= edges;
+  assign enough = seen_q && ahead_q >= edges;
 
   assign silent = byte_done && !acked && line_q == bits + MORE_BYTES;
-  assign late   = state_q == START && bit_valid && !sl_bit && processing_q[9:0] == proc_max_i &&
-                  !processing_q[10];
+  assign zero   = state_q == START && bit_valid && !sl_bit;
+  assign one    = state_q == START && bit_valid && sl_bit;
+  assign late   = zero && processing_q == {1'b0, proc_max_i};
   assign last_of_part = left_q == 6'd1;
   assign has_crc      = plan_i.tail_bits > 6'd5;
   assign in_crc       = state_q == TAIL && has_crc && left_q < 6'd7;
@@ -205,10 +206,10 @@ module pru_frame #(
       REST:     if (start_i) state_d = EDGES;
       EDGES:    if (second) state_d = SEARCH;
       SEARCH:   if (acked) state_d = START;
-      START:    if (bit_valid && sl_bit) state_d = CDS;
+      START:    if (one) state_d = CDS;
       CDS:      if (bit_valid) state_d = POSITION;
       POSITION: if (bit_valid && last_of_part) state_d = TAIL;
-      TAIL:     state_d = TAIL;
+      TAIL:;   // up to its last bit
       default:  state_d = REST;
     endcase
     if (over || stop_i) state_d = REST;
@@ -228,44 +229,41 @@ module pru_frame #(
       state_q <= state_d;
       first_q <= state_q == EDGES && (first_q || rise);
       kill_q  <= !start_i && (kill_q || stop_i || late);
-      seen_q  <= !start_i && (seen_q || state_q == CDS || silent);
+      seen_q  <= !start_i && (seen_q || one || silent);
 
-      if (start_i)                                         ahead_q <= '0;
-      else if (state_q == START && bit_valid && !sl_bit) begin
-        if (!rise)                                         ahead_q <= ahead_q - 8'd1;
-      end else if (rise)                                   ahead_q <= ahead_q + 8'd1;
+      if (start_i)           ahead_q <= '0;
+      else if (zero != rise) ahead_q <= zero ? ahead_q - 8'd1 : ahead_q + 8'd1;
 
       if (start_i)                             line_q <= '0;
       else if (byte_done && !acked && !silent) line_q <= line_q + 7'd1;
 
-      if (start_i)                                           processing_q <= '0;
-      else if (state_q == START && bit_valid && !sl_bit) processing_q <= processing_q + 11'd1;
+      if (start_i)   processing_q <= '0;
+      else if (zero) processing_q <= processing_q + 11'd1;
 
-      if (state_q == CDS)                  left_q <= plan_i.data_bits;
-      else if (bit_valid && last_of_part)  left_q <= plan_i.tail_bits;
-      else if (bit_valid)                  left_q <= left_q - 6'd1;
+      if (state_q == CDS)                 left_q <= plan_i.data_bits;
+      else if (bit_valid && last_of_part) left_q <= plan_i.tail_bits;
+      else if (bit_valid)                 left_q <= left_q - 6'd1;
     end
   end
 
   // ---- The word -----------------------------------------------------------------------------
 
-  // No reset: a frame clears it before its first bit.
+  // No reset: a frame clears them before its first bit.
   always_ff @(posedge clk_i) begin
     if (state_q == CDS)                        position_q <= '0;
     else if (state_q == POSITION && bit_valid) position_q <= {position_q[61:0], sl_bit};
+    if (state_q == CDS)                        crc_q <= '0;
+    else if (in_crc && bit_valid)              crc_q <= {crc_q[4:0], sl_bit};
   end
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       flag_q       <= '0;
-      crc_q        <= '0;
       flag_nerr_q  <= 1'b1;
       flag_nwarn_q <= 1'b1;
       cds_q        <= 1'b0;
       fits_q       <= 1'b1;
-      acked_q      <= 1'b0;
       late_q       <= 1'b0;
-      point_q      <= '0;
     end else begin
       if (state_q == CDS) begin
         flag_q       <= 2'b01;
@@ -278,23 +276,18 @@ module pru_frame #(
         if (!in_crc && flag_q[1]) flag_nwarn_q <= sl_bit;
         if (in_crc)               fits_q       <= fits_q && sl_bit != crc_top;
       end
-      if (start_i)                                          crc_q <= '0;
-      else if (in_crc && bit_valid)                         crc_q <= {crc_q[4:0], sl_bit};
-
-      if (start_i)                                          cds_q <= 1'b0;
-      else if (state_q == CDS && bit_valid)                 cds_q <= sl_bit;
-      acked_q <= !start_i && (acked_q || acked);
-      late_q  <= !start_i && (late_q || late);
-      if (state_q == START) point_q <= point;
+      if (start_i)                          cds_q <= 1'b0;
+      else if (state_q == CDS && bit_valid) cds_q <= sl_bit;
+      late_q <= !start_i && (late_q || late);
     end
   end
 
   always_comb begin
-    found_o.acked      = acked_q;
+    found_o.acked      = acked;
     found_o.late       = late_q;
     found_o.crc_bad    = has_crc && !fits_q;
     found_o.place      = place;
-    found_o.point      = point_q;
+    found_o.point      = point;
     found_o.raw        = raw;
     found_o.line       = line_q;
     found_o.processing = processing_q;

@@ -19,7 +19,7 @@ import report  # noqa: E402
 import yosys  # noqa: E402
 
 # top: room, parameters, most LUT4, least MHz
-LIMITS = {"biss_clb": ("clb", {}, 650, 100), "biss_pru": ("pru", {"ClockHz": 80_000_000}, 1120, 80)}
+LIMITS = {"biss_clb": ("clb", {}, 650, 100), "biss_pru": ("pru", {"ClockHz": 80_000_000}, 1100, 80)}
 
 
 def size(top, folder):
@@ -28,8 +28,7 @@ def size(top, folder):
     files = project.listed(project.RTL / room / f"{room}.f")
     status, text = yosys.execute(
         yosys.read(files) + [f"chparam -set {name} {value} {top}" for name, value in parameters.items()] +
-        [f"synth_ice40 -top {top} -json top.json", "check -assert",
-                             "tee -q -o stat.json stat -json"], folder, "synth")
+        [f"synth_ice40 -top {top} -json top.json", "check -assert", "tee -q -o stat.json stat -json"], folder, "synth")
     if status != 0:
         raise SystemExit(text)
     cells = json.loads((folder / "stat.json").read_text(encoding="utf-8"))["design"]["num_cells_by_type"]

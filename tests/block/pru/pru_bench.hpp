@@ -19,61 +19,13 @@
 #include "Vpru_core_200.h"
 #include "Vpru_core_80.h"
 #include "pru_regs.hpp"
+#include "tests/block/biss/edge_slave.hpp"
 #include "tests/reference/pru/judge.hpp"
 #include "tests/support/model_context.hpp"
 
 namespace mb4test {
 
 using pru_judge::Time;
-
-// An encoder of BiSS C that answers each rising edge of MA at once: acknowledge, processing time,
-// START, CDS and `bits`, then 0 until its timeout. Its answers go to `send`.
-class PruEncoder {
- public:
-  std::string bits;  // behind CDS
-  bool cds = false;
-  unsigned busy = 0;  // periods of processing time
-  Time timeout = 1'500'000;
-  bool silent = false;  // never acknowledges
-  std::function<void(Time, bool)> send;
-  // The end of a timeout with the level that MA has then.
-  std::function<void(bool)> on_end;
-
-  void edge(Time at, bool level) {
-    ma_ = level;
-    last_ = at;
-    if (!in_frame_) {
-      if (level) return;
-      in_frame_ = true;
-      rises_ = 0;
-      return;
-    }
-    if (!level) return;
-    ++rises_;
-    if (silent || rises_ < 2) return;
-    const unsigned number = rises_ - 2;  // 0: acknowledge
-    if (number <= busy) return send(at, false);
-    if (number == busy + 1) return send(at, true);
-    if (number == busy + 2) return send(at, cds);
-    const unsigned bit = number - busy - 3;
-    send(at, bit < bits.size() && bits[bit] == '1');
-  }
-  // Time goes on to `now`.
-  void step(Time now) {
-    if (!in_frame_ || now - last_ < timeout) return;
-    in_frame_ = false;
-    send(now, true);
-    if (on_end) on_end(ma_);
-  }
-  bool in_frame() const { return in_frame_; }
-  unsigned rises() const { return rises_; }
-
- private:
-  bool in_frame_ = false;
-  bool ma_ = true;
-  unsigned rises_ = 0;
-  Time last_ = 0;
-};
 
 template <typename Model, std::uint32_t Hz>
 class PruBench {
@@ -92,7 +44,6 @@ class PruBench {
     m.trigger_i = 0;
     pulse_reset(m);
     clocks(5);
-    encoder.send = [this](Time at, bool level) { arrive(at, level); };
   }
 
   void clock() {
@@ -107,11 +58,11 @@ class PruBench {
     const bool level = m.ma_o != 0;
     if (level != ma_before_) {
       ma.edge(now, level);
-      encoder.edge(now, level);
-      ++edges;
+      encoder.edge(level, static_cast<std::uint64_t>(now));
     }
     ma_before_ = level;
-    encoder.step(now);
+    encoder.step(level, static_cast<std::uint64_t>(now));
+    if (!silent && encoder.out != sent_) arrive(now, sent_ = encoder.out);
   }
   void clocks(std::uint64_t count) {
     for (std::uint64_t i = 0; i < count; ++i) clock();
@@ -160,13 +111,13 @@ class PruBench {
   Owned<Model> owner;
   Model& m = *owner;
   Time now = 0;
-  PruEncoder encoder;
+  Slave encoder;                 // its timeout is in picoseconds
+  bool silent = false;           // the encoder follows MA and says nothing
   Time delay = 0;                // round trip
   Time skew = 0;                 // rising edges of SL come later by this
   std::function<Time()> jitter;  // added to each edge of SL
   pru_judge::Trace ma{true};
   pru_judge::Trace sl{true};
-  std::uint64_t edges = 0;    // of MA
   std::optional<bool> stuck;  // level of SL whatever the encoder says
 
  private:
@@ -209,6 +160,7 @@ class PruBench {
 
   std::deque<Event> events_;
   Time last_arrival_ = 0;
+  bool sent_ = true;  // by the encoder
   bool answer_ = true;
   bool inverted_ = false;
   bool sl_level_ = true;

@@ -16,6 +16,8 @@
 
 namespace {
 
+using mb4test::bits_of;
+using mb4test::crc_of;
 using mb4test::Dice;
 using pru_judge::Judge;
 using pru_judge::JudgeSetup;
@@ -25,24 +27,6 @@ namespace reg = biss_pru::regs;
 unsigned frames_of(unsigned usual) {
   const char* text = std::getenv("MB4_PRU_FRAMES");
   return text != nullptr ? static_cast<unsigned>(std::atoi(text)) : usual;
-}
-
-std::string binary(std::uint64_t value, unsigned bits) {
-  std::string text;
-  for (unsigned i = bits; i-- != 0;) text += (value >> i & 1U) != 0 ? '1' : '0';
-  return text;
-}
-
-// 6 bits behind the bits of a word: x^6 + x + 1, inverted, by long division.
-std::string crc6(std::string bits) {
-  const std::size_t size = bits.size();
-  bits += "000000";
-  for (std::size_t i = 0; i < size; ++i) {
-    if (bits[i] != '1') continue;
-    for (const unsigned place : {0U, 5U, 6U}) bits[i + place] ^= 1;
-  }
-  for (char& bit : bits) bit ^= 1;
-  return bits.substr(size);
 }
 
 JudgeSetup setup_of(std::uint32_t hz, unsigned quirks) {
@@ -170,21 +154,20 @@ void judge_frames(unsigned frames) {
       bench.jitter = [&dice, period, jitter]() -> Time {
         return static_cast<Time>(jitter * static_cast<double>(period) * dice.below(1000) / 1000);
       };
-      encoder.timeout = period * 3 / 2 + dice.below(1000) * period / 1000;
+      encoder.timeout =
+          static_cast<std::uint64_t>(period * 3 / 2 + dice.below(1000) * period / 1000);
     };
     const auto answer = [&] {
       const unsigned limit = most != 0 ? most : 40 * judged.judge.mhz();
-      const std::string word =
-          binary(static_cast<std::uint64_t>(dice.below(1U << 31)) << 32U | dice.below(1U << 31),
-                 bits) +
-          (tail >= 8 ? binary(dice.below(4), 2) : std::string());
-      encoder.bits = tail >= 6 ? word + crc6(word) : word;
-      while (encoder.bits.size() < bits + tail) encoder.bits += dice.below(2) != 0 ? '1' : '0';
-      if (dice.below(20) == 0)
-        encoder.bits[dice.below(static_cast<unsigned>(encoder.bits.size()))] ^= 1;
-      encoder.cds = dice.below(2) != 0;
+      std::string word = bits_of(
+          static_cast<std::uint64_t>(dice.below(1U << 31)) << 32U | dice.below(1U << 31), bits);
+      if (tail >= 8) word += bits_of(dice.below(4), 2);
+      if (tail >= 6) word += bits_of(~crc_of(word, 0x43), 6);
+      while (word.size() < bits + tail) word += dice.below(2) != 0 ? '1' : '0';
+      if (dice.below(20) == 0) word[dice.below(static_cast<unsigned>(word.size()))] ^= 1;
+      encoder.payload = (dice.below(2) != 0 ? '1' : '0') + word;
       encoder.busy = dice.below(8) == 0 ? limit - 1 + dice.below(3) : dice.below(3);
-      encoder.silent = dice.below(40) == 0;
+      bench.silent = dice.below(40) == 0;
     };
     SCOPED_TRACE("bits " + std::to_string(bits) + ", tail " + std::to_string(tail) + ", " +
                  std::to_string(mhz) + " MHz, quirks " + std::to_string(quirks) + ", frame " +
@@ -217,7 +200,7 @@ void judge_frames(unsigned frames) {
       }
       // Mostly the encoder has ended its timeout.
       if (dice.below(10) != 0) {
-        for (int k = 0; k < 20'000 && (encoder.in_frame() || k < 300); ++k) bench.clock();
+        for (int k = 0; k < 20'000 && (encoder.in_frame || k < 300); ++k) bench.clock();
         bench.clocks(static_cast<std::uint64_t>(bench.delay / Bench::kClock) + 300);
       }
       judged.trigger();
