@@ -116,7 +116,7 @@ class ClockedLine final : public Line {
   // --- frames ------------------------------------------------------------------------------------
   using Line::flip;
   void flip(std::uint64_t frame, std::vector<unsigned> bits, FlipWatch watch) override {
-    faults_.flip_frame(frame, std::move(bits), watch);
+    faults_.flip_frame(frame, bits, watch);
   }
   std::uint64_t flip_frames() const override { return faults_.frames(); }
   void observe(Time now, LineObserver* observer, bool edges) override;

@@ -11,10 +11,8 @@ void SlFaults::flip_next_frame(std::vector<unsigned> bits) {
   pending_.insert(pending_.end(), bits.begin(), bits.end());
 }
 
-void SlFaults::flip_frame(std::uint64_t frame, std::vector<unsigned> bits, FlipWatch watch) {
-  Planned& planned = planned_[frame];
-  planned.bits.insert(planned.bits.end(), bits.begin(), bits.end());
-  planned.watches.push_back(watch);
+void SlFaults::flip_frame(std::uint64_t frame, const std::vector<unsigned>& bits, FlipWatch watch) {
+  planned_.add(frame, bits, watch);
 }
 
 void SlFaults::end_frame() {
@@ -28,11 +26,8 @@ void SlFaults::begin_frame() {
   counting_ = true;
   bit_ = 0;
   ++frames_;
-  if (const auto found = planned_.find(frames_); found != planned_.end()) {
-    const Planned planned = std::move(found->second);
-    planned_.erase(found);
-    flip_next_frame(planned.bits);
-    for (const FlipWatch& watch : planned.watches) watch.tell();
+  if (std::vector<unsigned> bits = planned_.take(frames_); !bits.empty()) {
+    flip_next_frame(std::move(bits));
   }
   update();
 }

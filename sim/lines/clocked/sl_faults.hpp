@@ -6,7 +6,6 @@
 #define MB4SIM_SL_FAULTS_HPP_
 
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <vector>
 
@@ -23,7 +22,7 @@ class SlFaults {
   void flip_next_frame(std::vector<unsigned> bits);
   // The same in frame number `frame` of the line. Frames count from 1, as in Slave::frames(). The
   // frame must not have come yet. `watch` is told when it has.
-  void flip_frame(std::uint64_t frame, std::vector<unsigned> bits, FlipWatch watch = {});
+  void flip_frame(std::uint64_t frame, const std::vector<unsigned>& bits, FlipWatch watch = {});
   // Number of frames of the line that have reached their start bit.
   std::uint64_t frames() const { return frames_; }
   // Sets the level of pin SL, whatever the slaves send. Without a value the line works again. The
@@ -61,12 +60,6 @@ class SlFaults {
   bool wire(bool slo) const { return slo != flip_now_; }
 
  private:
-  // Of one frame.
-  struct Planned {
-    std::vector<unsigned> bits;
-    std::vector<FlipWatch> watches;
-  };
-
   void begin_frame();
   void end_frame();
   void update() { flip_now_ = !pending_.empty() && is_pending(bit_); }
@@ -74,8 +67,8 @@ class SlFaults {
 
   bool start_bit_ = true;
   std::vector<unsigned> pending_;
-  std::map<std::uint64_t, Planned> planned_;  // key: frame
-  std::uint64_t frames_ = 0;                  // that have reached their start bit
+  PlannedFlips planned_;
+  std::uint64_t frames_ = 0;  // that have reached their start bit
   std::optional<bool> stuck_;
   bool acknowledged_ = false;
   bool counting_ = false;

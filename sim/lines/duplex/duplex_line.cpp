@@ -37,14 +37,6 @@ void DuplexSlave::announce_frame(Time start) {
   if (line_ != nullptr) line_->frame_begins(start);
 }
 
-std::vector<unsigned> DuplexSlave::take_flips(std::uint64_t frame) {
-  if (flips_.empty()) return {};
-  const auto found = flips_.extract(frame);
-  if (found.empty()) return {};
-  for (const FlipWatch& watch : found.mapped().watches) watch.tell();
-  return found.mapped().bits;
-}
-
 std::vector<unsigned> DuplexSlave::begin_frame(Time now) {
   announce_frame(now);
   return take_flips(begun_);

@@ -7,7 +7,6 @@
 #define MB4SIM_DUPLEX_SLAVE_HPP_
 
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -55,9 +54,7 @@ class DuplexSlave : public Slave {
   // The inverted bits of frame `frame` of this device; several calls add up. The device says what
   // the bits count. `watch` is told when it takes them.
   void flip(std::uint64_t frame, const std::vector<unsigned>& bits, FlipWatch watch = {}) {
-    Flips& flips = flips_[frame];
-    flips.bits.insert(flips.bits.end(), bits.begin(), bits.end());
-    flips.watches.push_back(watch);
+    flips_.add(frame, bits, watch);
   }
   // Number of frames that have begun.
   std::uint64_t begun() const { return begun_; }
@@ -78,7 +75,7 @@ class DuplexSlave : public Slave {
   // The same two steps for a device that recognises a frame late: `start` may lie in the past, and
   // the bits to invert are asked for by the number that the device gives the frame.
   void announce_frame(Time start);
-  std::vector<unsigned> take_flips(std::uint64_t frame);
+  std::vector<unsigned> take_flips(std::uint64_t frame) { return flips_.take(frame); }
 
   // Of the transceiver at this end: from the pin to a driver that is on, and off.
   Time enable_time() const;
@@ -91,16 +88,10 @@ class DuplexSlave : public Slave {
  private:
   friend class DuplexLine;
 
-  // Of one frame.
-  struct Flips {
-    std::vector<unsigned> bits;
-    std::vector<FlipWatch> watches;
-  };
-
   DuplexLine* line_ = nullptr;
   DuplexDrive drive_;
   std::uint64_t begun_ = 0;
-  std::map<std::uint64_t, Flips> flips_;
+  PlannedFlips flips_;
   struct {
     BitErrors answer;
     BitErrors master;
