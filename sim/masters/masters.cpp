@@ -11,6 +11,9 @@
 #include "sim/masters/dsl_model/dsl_master.hpp"
 #endif
 #include "sim/masters/mb4/mb4_master.hpp"
+#if MB4SIM_WITH_PRU
+#include "sim/masters/pru/pru_master.hpp"
+#endif
 
 namespace mb4::sim {
 namespace {
@@ -23,6 +26,9 @@ constexpr const Master* kMasters[] = {
 #endif
 #if MB4SIM_WITH_CLB
     &kClbMaster,
+#endif
+#if MB4SIM_WITH_PRU
+    &kPruMaster,
 #endif
 #if MB4SIM_WITH_DSL_MODEL
     &kDslModelMaster,
@@ -44,6 +50,7 @@ std::span<const LeftOut> masters_left_out() {
     std::vector<LeftOut> missing;
     if (!MB4SIM_WITH_AXI) missing.push_back({"axi", "-DMB4_AXI=ON"});
     if (!MB4SIM_WITH_CLB) missing.push_back({"clb", "-DMB4_CLB=ON"});
+    if (!MB4SIM_WITH_PRU) missing.push_back({"pru", "-DMB4_PRU=ON"});
     if (!MB4SIM_WITH_DSL_MODEL) missing.push_back({"dsl-model", "-DMB4_DSL=ON"});
     return missing;
   }();

@@ -10,6 +10,9 @@
 #include "masters/dsl_model/dsl_session.hpp"
 #endif
 #include "masters/mb4/mb4_session.hpp"
+#if MB4SIM_WITH_PRU
+#include "masters/pru/pru_session.hpp"
+#endif
 #include "sim/masters/master.hpp"
 
 namespace mb4::tool {
@@ -23,6 +26,9 @@ constexpr const MasterSupport* kAll[] = {
 #endif
 #if MB4SIM_WITH_CLB
     &kClbSupport,
+#endif
+#if MB4SIM_WITH_PRU
+    &kPruSupport,
 #endif
 #if MB4SIM_WITH_DSL_MODEL
     &kDslModelSupport,

@@ -51,6 +51,7 @@ class Simulator(Opened):
         self.regs = Registers(ChipBus(self), "mb4")
         self.axi_regs = Registers(AxiBus(self), "axi")
         self.clb_regs = Registers(AxiBus(self), "clb")
+        self.pru_regs = Registers(AxiBus(self), "pru")
 
     def __enter__(self) -> "Simulator":
         return self

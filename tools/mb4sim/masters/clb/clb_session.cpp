@@ -10,9 +10,9 @@
 #include <array>
 
 #include "clb_regs_table.hpp"
-#include "report/exit_status.hpp"
 #include "sim/masters/clb/clb_master.hpp"
 #include "word_port.hpp"
+#include "word_registers.hpp"
 
 namespace mb4::tool {
 namespace {
@@ -215,22 +215,7 @@ SessionFrame ClbSession::read(std::uint64_t number) {
 
 // Reading SPIRXBUF takes a word out. It is shown as it is then.
 RegisterMap ClbSession::registers() {
-  RegisterMap map;
-  map.bits = 32;
-  for (unsigned address = 0; address <= regs::kAddrWatchdog; address += sizeof(std::uint32_t)) {
-    std::uint32_t value = 0;
-    if (!port_.read(address, value)) {
-      throw UseError(
-          fmt::format("the master does not answer at 0x{:03X}: its clock stands", address));
-    }
-    map.words.push_back(value);
-  }
-  for (const regs::FieldInfo& field : regs::kFields) {
-    map.fields.push_back({field.name, field.alternate == nullptr ? "" : field.alternate,
-                          field.address, field.lsb, field.width,
-                          map.words[field.address / sizeof(std::uint32_t)], field.description});
-  }
-  return map;
+  return read_registers(port_, regs::kAddrWatchdog, regs::kFields);
 }
 
 // By MATCH1 of the MA counter, one less than half a period.
