@@ -692,8 +692,9 @@ static inline void mb4_cyclic_plan(mb4_cyclic *read, mb4_plan *plan, uint8_t wit
     }
     if (read->watch->held) {
       mb4_cyclic_add_clear(plan, 0xAAAAU, 4); /* SVALID1 to 8: of the other slaves too */
-      if (mb4_cyclic_proves(read, with)) {
+      if ((with & MB4_WITH_FULL) != 0 && read->spi_check >= MB4_SPI_CHECK_FULL) {
         mb4_cyclic_add_clear(plan, 0xAAAAU, 4); /* no status shows that one was lost */
+        read->watch->astray = true;             /* one may go to 0xF5 by one bit */
       }
     } /* else the bank is free, and what waits is good if no line is forced */
   } else if (read->built == plan) {
@@ -1338,7 +1339,7 @@ static inline uint8_t mb4_cyclic_step(mb4_cyclic *read, mb4_plan *plan, bool tra
                : mb4_cyclic_watch(read, plan, MB4_OK, now_us, with);
   }
   if (stage == MB4_STAGE_FREE) {
-    read->watch->held = !transferred && read->watch->held;
+    read->watch->held = !transferred && ((with & MB4_WITH_FULL) == 0 || read->watch->held);
     read->watch->news_us = now_us; /* no bank was switched meanwhile */
     if (transferred && (with & MB4_WITH_FULL) != 0 &&
         (read->watch->astray || (!read->unheld && mb4_cyclic_proves(read, with)))) {

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "sim/lines/clocked/clocked_line.hpp"
+#include "tests/driver/rtl/c99_read.hpp"
 #include "tests/driver/rtl/fault_bus.hpp"
 #include "tests/support/chip_fixture.hpp"
 
@@ -363,6 +364,85 @@ TEST(DriverProvenClear, FlippedAddressForcesMa_NoWordOfThatFrameIsGood) {
     EXPECT_TRUE(chip.device.automatic().poll_slave(1).ok()) << "phase " << phase;
   }
   EXPECT_GE(told, 30U);
+}
+
+// A program in C starts the frames itself, and sets `held`: words may wait from before. Each fault
+// of its first read, and the encoder has gone meanwhile.
+TEST(DriverProvenCyclic, HeldAtTheStart_NoFaultBringsAWordFromBefore) {
+  const auto prepare = [](FaultyChip& chip, mb4test::C99Read& c) {
+    ASSERT_TRUE(chip.device.configure(config()).ok());
+    ASSERT_TRUE(chip.device.automatic().start().ok());
+    chip.simulator.advance(350 * sim::kPsPerUs);  // frames of both banks
+    clocked(chip.simulator.line(1))->faults().stick(false);
+    chip.simulator.refresh_lines();
+    chip.simulator.advance(150 * sim::kPsPerUs);
+    c.set_up(config());
+    c.started(chip.clock.now_us());
+    chip.bus.plan({});
+  };
+  std::vector<Fault> faults;
+  {
+    FaultyChip chip(kEncoder);
+    mb4test::C99Read c;
+    prepare(chip, c);
+    EXPECT_NE(c.run(chip.bus, chip.clock), MB4_OK);
+    faults = mb4test::all_faults(chip.bus.bits(), 1);
+  }
+  ASSERT_GE(faults.size(), 100U);
+  for (const Fault& fault : faults) {
+    if (fault.last == mb4test::kForEver) continue;
+    FaultyChip chip(kEncoder);
+    mb4test::C99Read c;
+    prepare(chip, c);
+    chip.bus.plan(fault);
+    EXPECT_NE(c.run(chip.bus, chip.clock), MB4_OK) << fault.text();
+    chip.bus.plan({});
+    EXPECT_NE(c.run(chip.bus, chip.clock), MB4_OK) << "second, " << fault.text();
+  }
+}
+
+// The same start beside running frames of an encoder without a CRC: SVALID = 0 forces MA by one bit
+// of its address.
+TEST(DriverProvenCyclic, ClearAtTheStartForcesMa_NoWordOfThatFrameIsGood) {
+  Config without_crc = config();
+  without_crc.slaves[0].crc_polynomial = 0;
+  unsigned told = 0;
+  for (unsigned phase = 0; phase < 160; ++phase) {
+    for (const bool unheld : {false, true}) {
+      FaultyChip chip(kEncoder + "crc = 0\n");
+      ASSERT_TRUE(chip.device.configure(without_crc).ok());
+      ASSERT_TRUE(chip.device.automatic().start().ok());
+      chip.simulator.advance(250 * sim::kPsPerUs);
+      mb4test::C99Read c;
+      c.set_up(without_crc);
+      c.started(chip.clock.now_us());
+      c.read.unheld = unheld;
+      chip.simulator.advance(70 * sim::kPsPerUs + phase * 250 * sim::kPsPerNs);
+      const std::size_t clear = unheld ? 0 : 1;
+      chip.bus.plan({FaultKind::kFlipMosi, clear, clear, 13});
+      told += c.run(chip.bus, chip.clock) == MB4_CORRUPTED ? 1 : 0;
+      ASSERT_EQ(chip.bus.opcodes()[clear], 0x02);
+      chip.bus.plan({});
+      for (unsigned i = 0; i < 30; ++i) {
+        if (c.run(chip.bus, chip.clock) == MB4_OK) {
+          mb4_reading reading;
+          mb4_slot_reading(c.words.data(), c.slots.data(), &reading, mb4test::kCounting);
+          EXPECT_TRUE(reading.position < 60 && reading.position % 4 == 0)
+              << reading.position << " in phase " << phase << ", poll " << i << unheld;
+        }
+        chip.simulator.advance(5 * sim::kPsPerUs);
+      }
+      // Frames are started anew, with the same read.
+      ASSERT_TRUE(chip.device.automatic().restart().ok());
+      chip.simulator.advance(250 * sim::kPsPerUs);
+      c.watch.held = true;
+      c.started(chip.clock.now_us());
+      static_cast<void>(c.run(chip.bus, chip.clock));
+      chip.simulator.advance(150 * sim::kPsPerUs);
+      EXPECT_EQ(c.run(chip.bus, chip.clock), MB4_OK) << "phase " << phase << unheld;
+    }
+  }
+  EXPECT_GE(told, 300U);
 }
 
 }  // namespace
