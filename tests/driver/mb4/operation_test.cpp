@@ -1858,6 +1858,8 @@ TEST_F(Access, BankSwitchedByTheInstruction_IsReleasedOrEnds) {
     if (hold) {
       bus.expect_write(kAgs);
       bus.expect_write({0x02, 0xF1, 0x55, 0x55});
+      bus.expect_write({0x02, 0xF1, 0x55, 0x55});
+      bus.expect_read(join({kReadStatus, {0}}), join({kProven, {0x01}}));
       bus.expect_write({0x07, 0x41});
       bus.expect_read(kReadStatus, status(0xFB, 0x00, 0x41));
       bus.expect_write(kAgs);

@@ -369,35 +369,41 @@ TEST(DriverProvenClear, FlippedAddressForcesMa_NoWordOfThatFrameIsGood) {
 // A program in C starts the frames itself, and sets `held`: words may wait from before. Each fault
 // of its first read, and the encoder has gone meanwhile.
 TEST(DriverProvenCyclic, HeldAtTheStart_NoFaultBringsAWordFromBefore) {
-  const auto prepare = [](FaultyChip& chip, mb4test::C99Read& c) {
-    ASSERT_TRUE(chip.device.configure(config()).ok());
-    ASSERT_TRUE(chip.device.automatic().start().ok());
-    chip.simulator.advance(350 * sim::kPsPerUs);  // frames of both banks
-    clocked(chip.simulator.line(1))->faults().stick(false);
-    chip.simulator.refresh_lines();
-    chip.simulator.advance(150 * sim::kPsPerUs);
-    c.set_up(config());
-    c.started(chip.clock.now_us());
-    chip.bus.plan({});
-  };
-  std::vector<Fault> faults;
-  {
-    FaultyChip chip(kEncoder);
-    mb4test::C99Read c;
-    prepare(chip, c);
-    EXPECT_NE(c.run(chip.bus, chip.clock), MB4_OK);
-    faults = mb4test::all_faults(chip.bus.bits(), 1);
-  }
-  ASSERT_GE(faults.size(), 100U);
-  for (const Fault& fault : faults) {
-    if (fault.last == mb4test::kForEver) continue;
-    FaultyChip chip(kEncoder);
-    mb4test::C99Read c;
-    prepare(chip, c);
-    chip.bus.plan(fault);
-    EXPECT_NE(c.run(chip.bus, chip.clock), MB4_OK) << fault.text();
-    chip.bus.plan({});
-    EXPECT_NE(c.run(chip.bus, chip.clock), MB4_OK) << "second, " << fault.text();
+  for (const mb4::SpiCheck check : {mb4::SpiCheck::kFull, mb4::SpiCheck::kFullAndRelease}) {
+    Config of_check = config();
+    of_check.spi_check = check;
+    const auto prepare = [&of_check](FaultyChip& chip, mb4test::C99Read& c) {
+      ASSERT_TRUE(chip.device.configure(of_check).ok());
+      ASSERT_TRUE(chip.device.automatic().start().ok());
+      chip.simulator.advance(350 * sim::kPsPerUs);  // frames of both banks
+      clocked(chip.simulator.line(1))->faults().stick(false);
+      chip.simulator.refresh_lines();
+      chip.simulator.advance(150 * sim::kPsPerUs);
+      c.set_up(of_check);
+      c.started(chip.clock.now_us());
+      chip.bus.plan({});
+    };
+    std::vector<Fault> faults;
+    {
+      FaultyChip chip(kEncoder);
+      mb4test::C99Read c;
+      prepare(chip, c);
+      EXPECT_NE(c.run(chip.bus, chip.clock), MB4_OK);
+      faults = mb4test::all_faults(chip.bus.bits(), 1);
+    }
+    ASSERT_GE(faults.size(), 100U);
+    for (const Fault& fault : faults) {
+      if (fault.last == mb4test::kForEver) continue;
+      const bool swaps = fault.kind == FaultKind::kFlipMosi && fault.first == 0 && fault.bit == 10;
+      if (swaps && check == mb4::SpiCheck::kFull) continue;
+      FaultyChip chip(kEncoder);
+      mb4test::C99Read c;
+      prepare(chip, c);
+      chip.bus.plan(fault);
+      EXPECT_NE(c.run(chip.bus, chip.clock), MB4_OK) << fault.text();
+      chip.bus.plan({});
+      EXPECT_NE(c.run(chip.bus, chip.clock), MB4_OK) << "second, " << fault.text();
+    }
   }
 }
 
