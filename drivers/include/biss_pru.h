@@ -282,14 +282,12 @@ static inline uint32_t biss_pru_longest_us(const biss_pru_config *config, uint32
 }
 
 /* The end of the first frame after RUN. */
-static inline biss_pru_result biss_pru_first_frame(biss_pru *pru, uint32_t wait_us) {
+static inline biss_pru_result biss_pru_first_frame(const biss_pru *pru, uint32_t wait_us) {
   const uint32_t begin = biss_pru_now(pru);
   for (;;) {
     /* The time comes first: a thread that sleeps here must not miss a frame. */
     const uint32_t now = biss_pru_now(pru);
     if (biss_pru_frame_count(pru) != pru->told) {
-      pru->seen_us = now;
-      pru->moved_us = now;
       return biss_pru_frame_result(biss_pru_get(pru, PRU_ADDR_STATUS));
     }
     if (!biss_pru_runs(pru)) {

@@ -270,14 +270,20 @@ TEST_F(BissPru, FirstFrameThatStaysAway_StopsTheMaster) {
 }
 
 TEST_F(BissPru, ThreadThatSleepsDuringStart_MissesNothing) {
-  bool slept = false;
-  fake.before = [&] {
-    if (!fake.runs() || slept) return;
-    slept = true;
+  unsigned asked = 0;
+  fake.before_time = [&] {
+    if (++asked != 2) return;  // after the begin of the waiting
     fake.now_us += 100'000;
     fake.good(1);
   };
   EXPECT_EQ(start(usual()), BISS_PRU_OK);
+}
+
+TEST_F(BissPru, LongProcessingTime_IsWaitedFor) {
+  biss_pru_config config = usual();
+  config.proc_time_max = 1023;
+  first_frame_after(40 + 1023 + 25 + 27, [this] { fake.good(1); });
+  EXPECT_EQ(start(config), BISS_PRU_OK);
 }
 
 TEST_F(BissPru, ResetDuringStart_IsTold) {
@@ -613,9 +619,10 @@ TEST_F(BissPruAccess, UnpluggedEncoder_IsTold) {
 
 TEST_F(BissPruAccess, SecondAccess_HasToWait) {
   ASSERT_EQ(biss_pru_begin_read(&pru, 0, 0x44), BISS_PRU_OK);
-  EXPECT_EQ(biss_pru_begin_write(&pru, 0, 0x45, 1), BISS_PRU_BUSY);
-  EXPECT_EQ(frames(20), BISS_PRU_PENDING);
-  EXPECT_EQ(biss_pru_begin_read(&pru, 0, 0x45), BISS_PRU_BUSY);
+  for (unsigned frame = 0; frame < 46; ++frame) {
+    EXPECT_EQ(biss_pru_begin_write(&pru, 0, 0x45, 1), BISS_PRU_BUSY) << frame;
+    EXPECT_EQ(frames(1), BISS_PRU_PENDING);
+  }
   EXPECT_EQ(frames(), BISS_PRU_NO_ANSWER);
   EXPECT_EQ(fake.words, std::vector<std::uint32_t>{0x889B4000});
   EXPECT_EQ(biss_pru_begin_read(&pru, 0, 0x45), BISS_PRU_OK);
@@ -690,13 +697,15 @@ TEST_F(BissPruAccess, AbandonedControlFrame_KeepsTheMasterBusyUntilItHasEnded) {
 TEST_F(BissPruAccess, WordTakenInTheLastMoment_KeepsTheMasterBusy) {
   ASSERT_EQ(biss_pru_begin_write(&pru, 0, 0x60, 6), BISS_PRU_OK);
   fake.now_us = pru.begin_us + 48 * 330 + 1;
-  fake.before = [this] {
-    if (pru.access == BISS_PRU_ABANDONED && fake.words.empty()) fake.good(1);
+  unsigned looks = 0;
+  fake.before = [&] {
+    if (pru.access == BISS_PRU_ABANDONED && ++looks == 2) fake.good(1);
   };
   // Frames have ended, and with a position: it is only the control frame that has not.
   pru.access_frame = static_cast<std::uint16_t>(pru.access_frame - 1);
   EXPECT_EQ(poll(), BISS_PRU_TIMEOUT);
   fake.before = nullptr;
+  ASSERT_EQ(fake.words.size(), 1U);
   EXPECT_EQ(biss_pru_begin_read(&pru, 0, 0x44), BISS_PRU_BUSY);
   biss_pru_stop(&pru);
   EXPECT_EQ(biss_pru_begin_read(&pru, 0, 0x44), BISS_PRU_NOT_RUNNING);

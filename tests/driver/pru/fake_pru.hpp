@@ -33,7 +33,7 @@ class FakePru {
         [](void* self, std::uint32_t offset, std::uint32_t value) {
           static_cast<FakePru*>(self)->write(offset, value);
         },
-        [](void* self) { return static_cast<FakePru*>(self)->now_us; }};
+        [](void* self) { return static_cast<FakePru*>(self)->time(); }};
   }
 
   // ---- What frames bring. Each is one update of the memory.
@@ -68,8 +68,9 @@ class FakePru {
 
   std::map<std::uint32_t, std::uint32_t> regs;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> writes;
-  std::vector<std::uint32_t> words;  // control words taken
-  std::function<void()> before;      // before each access
+  std::vector<std::uint32_t> words;   // control words taken
+  std::function<void()> before;       // before each access
+  std::function<void()> before_time;  // before each look at the clock
   std::function<PruAnswer(std::uint32_t)> answer = [](std::uint32_t) { return PruAnswer{}; };
   std::uint32_t now_us = 0;
   std::uint32_t access_us = 1;
@@ -80,6 +81,10 @@ class FakePru {
     regs[PRU_ADDR_ID] = PRU_RESET_ID;
     regs[PRU_ADDR_FEATURES] = features;
     regs[PRU_ADDR_SIGNALS] = PRU_RESET_SIGNALS;
+  }
+  std::uint32_t time() {
+    if (before_time) before_time();
+    return now_us;
   }
   void set(std::uint32_t offset, std::uint32_t mask, std::uint32_t value) {
     regs[offset] = (regs[offset] & ~mask) | (value & mask);
