@@ -4,7 +4,7 @@
  * The calls of biss_pru, the BiSS C master with the memory of TIDEP0022: positions, line delay,
  * processing time, registers of the encoder. C99 and C++, freestanding; no heap, no static data.
  * A program needs this header and the generated pru_regs.h. It supplies two functions that access
- * the registers and one that tells the time. Several masters: one biss_pru object each.
+ * the registers and one that tells the time. Several masters: one biss_pru_master object each.
  *
  *   biss_pru_start(&pru, &port, &config);
  *   for (;;) {
@@ -165,7 +165,7 @@ typedef struct {
   uint16_t access_frame;
   uint32_t begin_us;
   uint32_t moved_us; /* when access_frame last moved */
-} biss_pru;
+} biss_pru_master;
 
 enum {
   BISS_PRU_IDLE = 0,
@@ -205,23 +205,23 @@ static inline uint32_t biss_pru_write_word(uint8_t id, uint8_t address, uint8_t 
 
 /* ---- Registers of the master ----------------------------------------------------------------- */
 
-static inline uint32_t biss_pru_get(const biss_pru *pru, uint32_t offset) {
+static inline uint32_t biss_pru_get(const biss_pru_master *pru, uint32_t offset) {
   return pru->port.read(pru->port.context, offset);
 }
 
-static inline void biss_pru_put(const biss_pru *pru, uint32_t offset, uint32_t value) {
+static inline void biss_pru_put(const biss_pru_master *pru, uint32_t offset, uint32_t value) {
   pru->port.write(pru->port.context, offset, value);
 }
 
-static inline uint32_t biss_pru_now(const biss_pru *pru) {
+static inline uint32_t biss_pru_now(const biss_pru_master *pru) {
   return pru->port.now_us(pru->port.context);
 }
 
-static inline uint16_t biss_pru_frame_count(const biss_pru *pru) {
+static inline uint16_t biss_pru_frame_count(const biss_pru_master *pru) {
   return (uint16_t)(biss_pru_get(pru, PRU_ADDR_FRAME_COUNT) & PRU_FRAME_COUNT_MASK);
 }
 
-static inline bool biss_pru_runs(const biss_pru *pru) {
+static inline bool biss_pru_runs(const biss_pru_master *pru) {
   return biss_pru_get(pru, PRU_ADDR_RUN) == PRU_RUN_MASK;
 }
 
@@ -240,7 +240,7 @@ static inline bool biss_pru_legal_mhz(uint8_t mhz) {
   return mhz == 1 || mhz == 2 || mhz == 5 || mhz == 10;
 }
 
-static inline uint32_t biss_pru_at_mhz(const biss_pru *pru, uint8_t mhz) {
+static inline uint32_t biss_pru_at_mhz(const biss_pru_master *pru, uint8_t mhz) {
   return pru->lengths | (uint32_t)mhz << PRU_FREQUENCY_SHIFT;
 }
 
@@ -282,7 +282,7 @@ static inline uint32_t biss_pru_longest_us(const biss_pru_config *config, uint32
 }
 
 /* The end of the first frame after RUN. */
-static inline biss_pru_result biss_pru_first_frame(const biss_pru *pru, uint32_t wait_us) {
+static inline biss_pru_result biss_pru_first_frame(const biss_pru_master *pru, uint32_t wait_us) {
   const uint32_t begin = biss_pru_now(pru);
   for (;;) {
     /* The time comes first: a thread that sleeps here must not miss a frame. */
@@ -301,7 +301,7 @@ static inline biss_pru_result biss_pru_first_frame(const biss_pru *pru, uint32_t
 
 /* Ends frames at once, MA = 1. An access of a register ends with them; an encoder whose control
  * frame was complete has done what it said. */
-static inline void biss_pru_stop(biss_pru *pru) {
+static inline void biss_pru_stop(biss_pru_master *pru) {
   biss_pru_put(pru, PRU_ADDR_RUN, 0);
   biss_pru_put(pru, PRU_ADDR_CTRL, 0);
   pru->access = BISS_PRU_IDLE;
@@ -313,7 +313,7 @@ static inline void biss_pru_stop(biss_pru *pru) {
  * BISS_PRU_NO_SLAVE, BISS_PRU_CRC, BISS_PRU_PROCESSING: it is not. The master runs nevertheless and
  * tries again with each trigger, so an encoder may come later.
  * BISS_PRU_NO_FRAMES: it has not ended; the master is stopped. Others: it does not run. */
-BISS_PRU_RESULT biss_pru_start(biss_pru *pru, const biss_pru_port *port,
+BISS_PRU_RESULT biss_pru_start(biss_pru_master *pru, const biss_pru_port *port,
                                const biss_pru_config *config) {
   const uint32_t overhead_us =
       config->overhead_us != 0 ? config->overhead_us : (uint32_t)BISS_PRU_OVERHEAD_US;
@@ -375,7 +375,7 @@ BISS_PRU_RESULT biss_pru_start(biss_pru *pru, const biss_pru_port *port,
  * frame after it. *first_frame becomes the FRAME_COUNT of the first reading that surely has it; it
  * may be null. A change turns the average off for four frames.
  * BISS_PRU_BAD_FREQUENCY, BISS_PRU_NOT_RUNNING: nothing was written. */
-BISS_PRU_RESULT biss_pru_set_frequency(biss_pru *pru, uint8_t mhz, uint16_t *first_frame) {
+BISS_PRU_RESULT biss_pru_set_frequency(biss_pru_master *pru, uint8_t mhz, uint16_t *first_frame) {
   if (!biss_pru_legal_mhz(mhz)) {
     return BISS_PRU_BAD_FREQUENCY;
   }
@@ -392,7 +392,7 @@ BISS_PRU_RESULT biss_pru_set_frequency(biss_pru *pru, uint8_t mhz, uint16_t *fir
 /* ---- Positions ------------------------------------------------------------------------------- */
 
 /* Reads the memory once. Returns what RUN was. */
-static inline bool biss_pru_read_memory(const biss_pru *pru, biss_pru_reading *reading,
+static inline bool biss_pru_read_memory(const biss_pru_master *pru, biss_pru_reading *reading,
                                         uint32_t *signals) {
   const uint32_t status = biss_pru_get(pru, PRU_ADDR_STATUS);
   const uint32_t received = biss_pru_get(pru, PRU_ADDR_RECEIVED);
@@ -416,7 +416,7 @@ static inline bool biss_pru_read_memory(const biss_pru *pru, biss_pru_reading *r
  * BISS_PRU_NO_SLAVE, BISS_PRU_CRC, BISS_PRU_PROCESSING: *reading has the others of its members.
  * BISS_PRU_NO_NEW_FRAME, BISS_PRU_NO_FRAMES, BISS_PRU_NOT_RUNNING, BISS_PRU_TORN: *reading keeps
  * its values. FRAME_COUNT has 16 bits: after exactly 65,536 frames a new one looks like none. */
-BISS_PRU_RESULT biss_pru_position(biss_pru *pru, biss_pru_reading *reading) {
+BISS_PRU_RESULT biss_pru_position(biss_pru_master *pru, biss_pru_reading *reading) {
   const uint32_t now = biss_pru_now(pru); /* before FRAME_COUNT, as in biss_pru_first_frame() */
   uint16_t count = 0;
   uint8_t tries = BISS_PRU_TRIES;
@@ -466,7 +466,7 @@ BISS_PRU_RESULT biss_pru_position(biss_pru *pru, biss_pru_reading *reading) {
 /* ---- Registers of the encoder ---------------------------------------------------------------- */
 
 /* Nobody runs a control frame. */
-static inline biss_pru_result biss_pru_access_free(const biss_pru *pru) {
+static inline biss_pru_result biss_pru_access_free(const biss_pru_master *pru) {
   if (pru->access == BISS_PRU_RUNS) {
     return BISS_PRU_BUSY;
   }
@@ -485,7 +485,7 @@ static inline biss_pru_result biss_pru_access_free(const biss_pru *pru) {
   return BISS_PRU_OK;
 }
 
-static inline biss_pru_result biss_pru_begin(biss_pru *pru, uint8_t id, uint8_t address,
+static inline biss_pru_result biss_pru_begin(biss_pru_master *pru, uint8_t id, uint8_t address,
                                              uint32_t word) {
   biss_pru_result result = BISS_PRU_OK;
   if (id > 7 || address > 127) {
@@ -507,7 +507,7 @@ static inline biss_pru_result biss_pru_begin(biss_pru *pru, uint8_t id, uint8_t 
 /* Begins to read or write one register of the encoder: `id` 0 to 7, an encoder alone has 0;
  * `address` 0 to 127. Then biss_pru_poll().
  * BISS_PRU_BAD_REGISTER, BISS_PRU_BUSY, BISS_PRU_NOT_RUNNING: nothing was written. */
-BISS_PRU_RESULT biss_pru_begin_read(biss_pru *pru, uint8_t id, uint8_t address) {
+BISS_PRU_RESULT biss_pru_begin_read(biss_pru_master *pru, uint8_t id, uint8_t address) {
   const biss_pru_result result = biss_pru_begin(pru, id, address, biss_pru_read_word(id, address));
   if (result == BISS_PRU_OK) {
     pru->is_write = false;
@@ -515,7 +515,8 @@ BISS_PRU_RESULT biss_pru_begin_read(biss_pru *pru, uint8_t id, uint8_t address) 
   return result;
 }
 
-BISS_PRU_RESULT biss_pru_begin_write(biss_pru *pru, uint8_t id, uint8_t address, uint8_t data) {
+BISS_PRU_RESULT biss_pru_begin_write(biss_pru_master *pru, uint8_t id, uint8_t address,
+                                     uint8_t data) {
   const biss_pru_result result =
       biss_pru_begin(pru, id, address, biss_pru_write_word(id, address, data));
   if (result == BISS_PRU_OK) {
@@ -526,7 +527,7 @@ BISS_PRU_RESULT biss_pru_begin_write(biss_pru *pru, uint8_t id, uint8_t address,
 }
 
 /* The end of a control frame: its results stay until the next one. */
-static inline biss_pru_result biss_pru_answer(biss_pru *pru, uint8_t *data) {
+static inline biss_pru_result biss_pru_answer(biss_pru_master *pru, uint8_t *data) {
   const uint32_t result = biss_pru_get(pru, PRU_ADDR_CTRL_RESULT) & PRU_CTRL_RESULT_MASK;
   const uint32_t status = biss_pru_get(pru, PRU_ADDR_STATUS);
   const uint32_t crc =
@@ -546,7 +547,7 @@ static inline biss_pru_result biss_pru_answer(biss_pru *pru, uint8_t *data) {
 }
 
 /* The time is over. A word that still waits is taken back. */
-static inline biss_pru_result biss_pru_give_up(biss_pru *pru, uint32_t now) {
+static inline biss_pru_result biss_pru_give_up(biss_pru_master *pru, uint32_t now) {
   const uint16_t count = biss_pru_frame_count(pru);
   pru->access = BISS_PRU_ABANDONED;
   if (biss_pru_get(pru, PRU_ADDR_CTRL) != 0) {
@@ -567,16 +568,15 @@ static inline biss_pru_result biss_pru_give_up(biss_pru *pru, uint32_t now) {
  * BISS_PRU_OK: *data is the register's value; of a write, what the encoder has sent back, which is
  * the written byte. Nothing in the published format confirms that the encoder has stored it, or
  * that its R and W bits came back: read the register if it matters.
- * BISS_PRU_NO_ANSWER, BISS_PRU_BAD_ANSWER, BISS_PRU_BAD_ECHO: a write may have been done or not.
- * An encoder that needs longer than one frame for its start bit gives one of the first two: the
- * published format does not wait for it.
- * BISS_PRU_NO_SLAVE: no encoder.
+ * BISS_PRU_NO_ANSWER, BISS_PRU_BAD_ANSWER, BISS_PRU_BAD_ECHO, BISS_PRU_NO_SLAVE: a write may have
+ * been done or not. An encoder that needs longer than one frame for its start bit gives one of the
+ * first two: the published format does not wait for it.
  * BISS_PRU_NO_FRAMES, BISS_PRU_TIMEOUT, and BISS_PRU_NO_SLAVE while SL is 0: only after 48 times
  * frame_limit_us. The control frame may still go on with the next frames, and a write be done;
  * BISS_PRU_BUSY until it has ended, or until biss_pru_stop() and biss_pru_start().
  * BISS_PRU_NOT_RUNNING: the master was stopped or reset, so the encoder saw all or a part of it.
  * BISS_PRU_NO_ACCESS: none has begun. */
-BISS_PRU_RESULT biss_pru_poll(biss_pru *pru, uint8_t *data) {
+BISS_PRU_RESULT biss_pru_poll(biss_pru_master *pru, uint8_t *data) {
   const uint32_t now = biss_pru_now(pru);
   uint16_t count = 0;
   if (pru->access != BISS_PRU_RUNS) {
@@ -601,7 +601,7 @@ BISS_PRU_RESULT biss_pru_poll(biss_pru *pru, uint8_t *data) {
 }
 
 /* The same, waiting for the end: 47 frames. Codes as of biss_pru_begin_... and biss_pru_poll(). */
-BISS_PRU_RESULT biss_pru_wait(biss_pru *pru, uint8_t *data) {
+BISS_PRU_RESULT biss_pru_wait(biss_pru_master *pru, uint8_t *data) {
   biss_pru_result result = BISS_PRU_PENDING;
   while (result == BISS_PRU_PENDING) {
     result = biss_pru_poll(pru, data);
@@ -609,12 +609,14 @@ BISS_PRU_RESULT biss_pru_wait(biss_pru *pru, uint8_t *data) {
   return result;
 }
 
-BISS_PRU_RESULT biss_pru_read_register(biss_pru *pru, uint8_t id, uint8_t address, uint8_t *data) {
+BISS_PRU_RESULT biss_pru_read_register(biss_pru_master *pru, uint8_t id, uint8_t address,
+                                       uint8_t *data) {
   const biss_pru_result result = biss_pru_begin_read(pru, id, address);
   return result == BISS_PRU_OK ? biss_pru_wait(pru, data) : result;
 }
 
-BISS_PRU_RESULT biss_pru_write_register(biss_pru *pru, uint8_t id, uint8_t address, uint8_t data) {
+BISS_PRU_RESULT biss_pru_write_register(biss_pru_master *pru, uint8_t id, uint8_t address,
+                                        uint8_t data) {
   uint8_t echo = 0;
   const biss_pru_result result = biss_pru_begin_write(pru, id, address, data);
   return result == BISS_PRU_OK ? biss_pru_wait(pru, &echo) : result;

@@ -12,7 +12,7 @@
 
 #include "port.h"
 
-static biss_pru pru;
+static biss_pru_master pru;
 
 /* Waits for the next frame and prints what is wrong with it. False: it is no use to go on. */
 static bool frame(biss_pru_reading *reading) {

@@ -5,6 +5,6 @@
 
 #include "biss_pru.h"
 
-void loop(biss_pru *pru, biss_pru_reading *reading);
+void loop(biss_pru_master *pru, biss_pru_reading *reading);
 
-void loop(biss_pru *pru, biss_pru_reading *reading) { biss_pru_position(pru, reading); }
+void loop(biss_pru_master *pru, biss_pru_reading *reading) { biss_pru_position(pru, reading); }

@@ -5,10 +5,10 @@
 
 #include "biss_pru.h"
 
-biss_pru_result program(biss_pru *pru, const biss_pru_port *port, biss_pru_reading *reading);
+biss_pru_result program(biss_pru_master *pru, const biss_pru_port *port, biss_pru_reading *reading);
 const char *program_text(biss_pru_result result);
 
-biss_pru_result program(biss_pru *pru, const biss_pru_port *port, biss_pru_reading *reading) {
+biss_pru_result program(biss_pru_master *pru, const biss_pru_port *port, biss_pru_reading *reading) {
   biss_pru_config config;
   uint8_t data = 0;
   uint16_t first_frame = 0;

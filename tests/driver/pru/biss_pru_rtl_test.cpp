@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -52,16 +53,7 @@ class PruRig : public mb4test::PruSim {
  public:
   using PruSim::PruSim;
   biss_pru_result start(const biss_pru_config& config) {
-    const biss_pru_port port = {this,
-                                [](void* self, std::uint32_t offset) {
-                                  std::uint32_t data = 0;
-                                  static_cast<PruRig*>(self)->host.read(offset, data);
-                                  return data;
-                                },
-                                [](void* self, std::uint32_t offset, std::uint32_t data) {
-                                  static_cast<PruRig*>(self)->host.write(offset, data, 0xF);
-                                },
-                                [](void* self) { return static_cast<PruRig*>(self)->now_us(); }};
+    const biss_pru_port port = {this, port_read, port_write, port_now_us};
     return biss_pru_start(&pru, &port, &config);
   }
   biss_pru_result position() { return biss_pru_position(&pru, &reading); }
@@ -100,9 +92,21 @@ class PruRig : public mb4test::PruSim {
   }
   std::uint8_t in_encoder(std::uint8_t address) { return simulator.slave(1)->reg_read(address); }
 
-  biss_pru pru{};
+  biss_pru_master pru{};
   biss_pru_reading reading{};
   std::uint8_t data = 0xEE;
+
+ private:
+  // An access without an answer reads 0.
+  static std::uint32_t port_read(void* self, std::uint32_t offset) {
+    std::uint32_t word = 0;
+    static_cast<PruRig*>(self)->host.read(offset, word);
+    return word;
+  }
+  static void port_write(void* self, std::uint32_t offset, std::uint32_t word) {
+    static_cast<PruRig*>(self)->host.write(offset, word, 0xF);
+  }
+  static std::uint32_t port_now_us(void* self) { return static_cast<PruRig*>(self)->now_us(); }
 };
 
 // ---- Positions ---------------------------------------------------------------------------------
@@ -160,8 +164,7 @@ TEST(BissPruRtl, SetFrequency_ActsFromTheFrameItNames) {
   config.period_us = 100;
   ASSERT_EQ(rig.start(config), BISS_PRU_OK);
   unsigned before = 1;
-  for (const auto& [mhz, delay] : std::map<std::uint8_t, unsigned>{{2, 2}, {5, 3}, {1, 1}}) {
-    if (mhz == 1) continue;
+  for (const auto& [mhz, delay] : std::map<std::uint8_t, unsigned>{{2, 2}, {5, 3}}) {
     ASSERT_EQ(rig.next(), BISS_PRU_OK);
     std::uint16_t first = 0;
     ASSERT_EQ(biss_pru_set_frequency(&rig.pru, mhz, &first), BISS_PRU_OK);
@@ -286,7 +289,10 @@ struct Fault {
   const char* begin;
   const char* end;
   const char* channel;
+  bool written;  // a write during the fault is done: the encoder sees MA
 };
+
+void PrintTo(const Fault& fault, std::ostream* out) { *out << fault.name; }
 
 class BissPruLine : public testing::TestWithParam<Fault> {};
 
@@ -329,7 +335,7 @@ TEST_P(BissPruLine, FaultDuringAnAccess_IsTold) {
   EXPECT_EQ(biss_pru_poll(&rig.pru, &rig.data), BISS_PRU_PENDING);
   rig.action(fault.begin);
   EXPECT_EQ(biss_pru_wait(&rig.pru, &rig.data), BISS_PRU_NO_SLAVE);
-  EXPECT_EQ(rig.in_encoder(0x60), 0U);
+  EXPECT_EQ(rig.in_encoder(0x60), fault.written ? 0x5AU : 0U);
   rig.action(fault.end);
   biss_pru_result result = BISS_PRU_BUSY;
   for (int i = 0; i < 50 && result == BISS_PRU_BUSY; ++i) {
@@ -343,12 +349,12 @@ TEST_P(BissPruLine, FaultDuringAnAccess_IsTold) {
 
 INSTANTIATE_TEST_SUITE_P(
     Each, BissPruLine,
-    testing::Values(Fault{"UnpluggedReads1", "unplug", "plug", "open_level = 1"},
-                    Fault{"UnpluggedReads0", "unplug", "plug", "open_level = 0"},
-                    Fault{"SlLow", "sl-low", "sl-free", ""},
-                    Fault{"SlHigh", "sl-high", "sl-free", ""},
-                    Fault{"MaLow", "ma-low", "ma-free", ""},
-                    Fault{"MaHigh", "ma-high", "ma-free", ""}),
+    testing::Values(Fault{"UnpluggedReads1", "unplug", "plug", "open_level = 1", false},
+                    Fault{"UnpluggedReads0", "unplug", "plug", "open_level = 0", false},
+                    Fault{"SlLow", "sl-low", "sl-free", "", false},
+                    Fault{"SlHigh", "sl-high", "sl-free", "", true},
+                    Fault{"MaLow", "ma-low", "ma-free", "", false},
+                    Fault{"MaHigh", "ma-high", "ma-free", "", false}),
     [](const auto& test) { return std::string(test.param.name); });
 
 // ---- Registers ---------------------------------------------------------------------------------
@@ -370,7 +376,7 @@ TEST_P(BissPruRegisters, Table11_IsReadAndOtherBytesAreWritten) {
     ASSERT_EQ(rig.read_register(address), BISS_PRU_OK) << int{address};
     EXPECT_EQ(rig.data, value) << int{address};
   }
-  for (const std::uint8_t address : {0x48, 0x55, 0x6A}) {
+  for (const std::uint8_t address : std::vector<std::uint8_t>{0x48, 0x55, 0x6A}) {
     for (const unsigned value : {0x00U, 0xFFU, 0xA5U}) {
       const auto byte = static_cast<std::uint8_t>(value ^ address);
       ASSERT_EQ(rig.write_register(address, byte), BISS_PRU_OK);
@@ -431,10 +437,12 @@ TEST(BissPruRtl, OtherIdAndMissingRegister_GiveNoAnswer) {
 }
 
 TEST(BissPruRtl, EncoderWithTwoIds_IsReachedByEach) {
-  PruRig rig(scenario(kPlain + "\nids = 2\nregisters = { 0x44 = [0x12] }"));
+  PruRig rig(scenario(kPlain + "\nids = 2\nregisters = { 0x44 = [0x12], 0xC4 = [0x34] }"));
   ASSERT_EQ(rig.start(usual()), BISS_PRU_OK);
+  EXPECT_EQ(rig.read_register(0x44, 0), BISS_PRU_OK);
+  const std::uint8_t first = rig.data;
   EXPECT_EQ(rig.read_register(0x44, 1), BISS_PRU_OK);
-  EXPECT_EQ(rig.data, 0x12U);
+  EXPECT_EQ((std::set<std::uint8_t>{first, rig.data}), (std::set<std::uint8_t>{0x12, 0x34}));
 }
 
 // R-P17: S is not repeated, so an encoder that waits cannot be read.

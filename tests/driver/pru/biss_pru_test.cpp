@@ -104,7 +104,7 @@ class BissPru : public testing::Test {
   biss_pru_result poll() { return biss_pru_poll(&pru, &data); }
 
   FakePru fake;
-  biss_pru pru{};
+  biss_pru_master pru{};
   biss_pru_reading reading{};
   std::uint8_t data = 0xEE;
 
