@@ -72,7 +72,7 @@ module biss_os_sampler (
   logic       byte_end_q;
   logic [3:0] place_q;
   logic [3:0] wait_q;       // samples before the one with the next bit
-  logic [3:0] left;
+  logic       early_q;      // that bit is one sample nearer: a sample came in the clock of loads_q
   logic       take;
   logic       bit_valid_q;
   logic       bit_q;
@@ -132,17 +132,20 @@ module biss_os_sampler (
   // ---- Bits ---------------------------------------------------------------------------------
 
   // The sample behind the byte with the acknowledge has number 8: it holds bit 1 if point_i is 0.
-  assign left = loads_q ? point_i : wait_q;
-  assign take = found_q && taken && left == 4'd0;
+  // That sample comes while wait_q gets point_i if samples follow clock by clock.
+  assign take = found_q && !loads_q && taken && wait_q == {3'd0, early_q};
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       wait_q      <= '0;
+      early_q     <= 1'b0;
       bit_valid_q <= 1'b0;
       bit_q       <= 1'b0;
     end else begin
-      if (take) wait_q <= 4'd7;
-      else      wait_q <= left - 4'(taken);
+      if (loads_q)   wait_q <= point_i;
+      else if (take) wait_q <= 4'd7;
+      else           wait_q <= wait_q - 4'(taken);
+      early_q     <= loads_q ? taken : early_q && !take;
       bit_valid_q <= take && !clear_i;
       bit_q       <= sl;
     end

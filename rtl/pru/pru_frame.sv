@@ -69,8 +69,8 @@ module pru_frame #(
   logic        kill_q;         // MA has to return to 1
   logic        ends_ma;
   logic        seen_q;         // the start bit has come, or no acknowledge
-  logic [6:0]  bits;           // of the word
-  logic [7:0]  edges;
+  logic [6:0]  bits_q;         // of the word
+  logic [7:0]  edges_q;
   logic [7:0]  ahead_q;        // rising edges minus periods of processing
   logic        enough;
   logic        run, sample, sample_last, tick, half_next;
@@ -85,9 +85,11 @@ module pru_frame #(
   logic        zero;           // a period of processing
   logic        one;            // the start bit
   logic        late;           // too much processing time
+  logic        longest_q;      // the line delay cannot be longer
+  logic        limit_q;        // one period of processing more is too much
   logic        silent;         // no acknowledge
   logic [5:0]  left_q;         // bits of a part that have not come
-  logic        last_of_part, in_crc;
+  logic        last_of_part_q, in_crc_q;
   logic [1:0]  flag_q;         // the next bit of the tail is the first, the second one
   logic        last;
   logic        over;
@@ -176,7 +178,7 @@ module pru_frame #(
     .start_i (16'h0000),
     .load_i  (state_q == CDS),
     .shift_i (bit_valid),
-    .feed_i  (!in_crc),
+    .feed_i  (!in_crc_q),
     .bit_i   (sl_bit),
     .top_o   (crc_top)
   );
@@ -185,18 +187,14 @@ module pru_frame #(
   // A tick makes its edge: MA keeps the places of its edges to the last one.
   assign ends_ma = stop_i || late || kill_q;
   assign second = state_q == EDGES && rise && first_q;
-  assign bits   = {1'b0, plan_i.data_bits} + {1'b0, plan_i.tail_bits};
-  assign edges  = {1'b0, bits} + MORE_EDGES - 8'(plan_i.cdm);
-  assign enough = seen_q && ahead_q >= edges;
+  assign enough = seen_q && ahead_q >= edges_q;
 
-  assign silent = byte_done && !acked && line_q == bits + MORE_BYTES;
+  assign silent = byte_done && !acked && longest_q;
   assign zero   = state_q == START && bit_valid && !sl_bit;
   assign one    = state_q == START && bit_valid && sl_bit;
-  assign late   = zero && processing_q == {1'b0, proc_max_i};
-  assign last_of_part = left_q == 6'd1;
-  assign has_crc      = plan_i.tail_bits > 6'd5;
-  assign in_crc       = state_q == TAIL && has_crc && left_q < 6'd7;
-  assign last = bit_valid && last_of_part &&
+  assign late   = zero && limit_q;
+  assign has_crc = plan_i.tail_bits > 6'd5;
+  assign last = bit_valid && last_of_part_q &&
                 ((state_q == POSITION && plan_i.tail_bits == 6'd0) || state_q == TAIL);
   assign over = silent || late || last;
 
@@ -208,7 +206,7 @@ module pru_frame #(
       SEARCH:   if (acked) state_d = START;
       START:    if (one) state_d = CDS;
       CDS:      if (bit_valid) state_d = POSITION;
-      POSITION: if (bit_valid && last_of_part) state_d = TAIL;
+      POSITION: if (bit_valid && last_of_part_q) state_d = TAIL;
       TAIL:;   // up to its last bit
       default:  state_d = REST;
     endcase
@@ -240,9 +238,29 @@ module pru_frame #(
       if (start_i)   processing_q <= '0;
       else if (zero) processing_q <= processing_q + 11'd1;
 
-      if (state_q == CDS)                 left_q <= plan_i.data_bits;
-      else if (bit_valid && last_of_part) left_q <= plan_i.tail_bits;
-      else if (bit_valid)                 left_q <= left_q - 6'd1;
+      if (state_q == CDS)                   left_q <= plan_i.data_bits;
+      else if (bit_valid && last_of_part_q) left_q <= plan_i.tail_bits;
+      else if (bit_valid)                   left_q <= left_q - 6'd1;
+    end
+  end
+
+  // Sums and compares of what stays for two clocks at least before it is used: the plan, and counts
+  // that change once a period.
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      bits_q         <= '0;
+      edges_q        <= '0;
+      longest_q      <= 1'b0;
+      limit_q        <= 1'b0;
+      last_of_part_q <= 1'b0;
+      in_crc_q       <= 1'b0;
+    end else begin
+      bits_q         <= {1'b0, plan_i.data_bits} + {1'b0, plan_i.tail_bits};
+      edges_q        <= {1'b0, bits_q} + MORE_EDGES - 8'(plan_i.cdm);
+      longest_q      <= line_q == bits_q + MORE_BYTES;
+      limit_q        <= processing_q == {1'b0, proc_max_i};
+      last_of_part_q <= left_q == 6'd1;
+      in_crc_q       <= state_q == TAIL && has_crc && left_q < 6'd7;
     end
   end
 
@@ -253,7 +271,7 @@ module pru_frame #(
     if (state_q == CDS)                        position_q <= '0;
     else if (state_q == POSITION && bit_valid) position_q <= {position_q[61:0], sl_bit};
     if (state_q == CDS)                        crc_q <= '0;
-    else if (in_crc && bit_valid)              crc_q <= {crc_q[4:0], sl_bit};
+    else if (in_crc_q && bit_valid)              crc_q <= {crc_q[4:0], sl_bit};
   end
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -272,9 +290,9 @@ module pru_frame #(
         fits_q       <= 1'b1;
       end else if (state_q == TAIL && bit_valid) begin
         flag_q <= {flag_q[0], 1'b0};
-        if (!in_crc && flag_q[0]) flag_nerr_q  <= sl_bit;
-        if (!in_crc && flag_q[1]) flag_nwarn_q <= sl_bit;
-        if (in_crc)               fits_q       <= fits_q && sl_bit != crc_top;
+        if (!in_crc_q && flag_q[0]) flag_nerr_q  <= sl_bit;
+        if (!in_crc_q && flag_q[1]) flag_nwarn_q <= sl_bit;
+        if (in_crc_q)             fits_q       <= fits_q && sl_bit != crc_top;
       end
       if (start_i)                          cds_q <= 1'b0;
       else if (state_q == CDS && bit_valid) cds_q <= sl_bit;

@@ -15,7 +15,8 @@
 //   change earlier than 4 clocks behind the sample, or 1 behind the start.
 // - run_i falls: stop_o for one clock; nothing is pending.
 //
-// Misuse: a smaller value of period_i or overhead_i counts at once.
+// Misuse: a value of period_i or overhead_i that becomes smaller than what has passed ends the
+// count two clocks later. period_i = 1 acts as 2.
 // Source: TIDEP0022, 3.2.4.1 and 3.2.4.2; docs/pru.md.
 
 module pru_pace #(
@@ -42,12 +43,13 @@ module pru_pace #(
   output logic        lost_o
 );
 
-  // Counts are inverted: they begin with ones, and the carry of a sum compares.
-  localparam logic [15:0] SETTLE_LAST = 16'(ClockHz / 25_000 - 1);
+  // Counts are inverted: they begin with ones, and the carry of a sum compares. What a clock needs
+  // is compared in the clock before it.
+  localparam logic [15:0] SETTLE_NEXT = 16'(ClockHz / 25_000 - 2);
   localparam logic [15:0] NONE        = 16'hFFFF;
-  localparam logic [15:0] FROM_START  = 16'hFFFE;  // clocks that have gone when the count begins
-  localparam logic [15:0] FROM_SAMPLE = 16'hFFFB;
-  localparam logic [23:0] FIRST       = 24'hFF_FFFE;
+  localparam logic [15:0] FROM_START  = 16'hFFFD;  // one clock goes before the count
+  localparam logic [15:0] FROM_SAMPLE = 16'hFFFA;  // four
+  localparam logic [23:0] FIRST       = 24'hFF_FFFD;
 
   typedef enum logic [2:0] {
     STOPPED,
@@ -58,20 +60,26 @@ module pru_pace #(
   } state_e;
 
   state_e      state_d, state_q;
-  logic [15:0] count_q;         // clocks so far, inverted
-  logic        count_more;      // overhead_i is larger
+  logic [15:0] count_q;         // clocks of the state so far, inverted
+  logic        counts;          // count_q moves
+  logic        more;            // overhead_i is larger than the clocks up to the next one
+  logic        more_q;
   logic        count_ends;
-  logic [15:0] unused_count;
+  logic [16:0] unused_count;
   logic        first_q;
   logic        absent_q;
   logic        pin, pin_q;
-  logic [23:0] timer_q;         // clocks of the period so far, inverted
-  logic        timer_more;      // the period is longer
+  logic [23:0] timer_q;         // clocks of the period up to the next one, inverted
+  logic        timer_goes;      // timer_q moves
+  logic        timer_more;      // the period is longer than these
+  logic        timer_more_q;
+  logic        timed_q;         // the period is not 0
   logic        timer_ends;
   logic [23:0] unused_timer;
   logic        trigger;
   logic        pending_q;
   logic        go;
+  logic        settled_q;
   logic        settled;         // the 40 us are over
   logic        accepts;         // triggers count
 
@@ -84,12 +92,15 @@ module pru_pace #(
 
   assign settle_o   = state_q == STOPPED && run_i;
   assign stop_o     = state_q != STOPPED && !run_i;
-  assign {count_more, unused_count} = {1'b0, overhead_i} + {1'b0, count_q};
-  assign count_ends = state_q == OVERHEAD && !count_more;
+  // The lowest carry takes a clock away from a count that has not begun.
+  assign {more, unused_count} = {1'b0, overhead_i, 1'b1} + {1'b0, count_q, state_q != OVERHEAD};
+  assign count_ends = state_q == OVERHEAD && !more_q;
+  assign counts     = (state_q == SETTLE && !settled_q) || state_q == OVERHEAD;
   assign {timer_more, unused_timer} = {1'b0, period_i} + {1'b0, timer_q};
-  assign timer_ends = accepts && !timer_more && period_i != 24'd0;
+  assign timer_ends = accepts && !timer_more_q && timed_q;
+  assign timer_goes = accepts && timer_more_q && timed_q;
   assign trigger    = (pin && !pin_q) || timer_ends;
-  assign settled    = state_q == SETTLE && (count_q & SETTLE_LAST) == 16'd0;
+  assign settled    = state_q == SETTLE && settled_q;
   assign go         = run_i && state_q == READY && pending_q && rests_i;
   assign accepts    = state_q != STOPPED && state_q != SETTLE;
 
@@ -108,25 +119,33 @@ module pru_pace #(
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      state_q   <= STOPPED;
-      count_q   <= NONE;
-      first_q   <= 1'b0;
-      absent_q  <= 1'b0;
-      pin_q     <= 1'b0;
-      timer_q   <= FIRST;
-      pending_q <= 1'b0;
+      state_q      <= STOPPED;
+      count_q      <= NONE;
+      more_q       <= 1'b0;
+      settled_q    <= 1'b0;
+      first_q      <= 1'b0;
+      absent_q     <= 1'b0;
+      pin_q        <= 1'b0;
+      timer_q      <= FIRST;
+      timer_more_q <= 1'b0;
+      timed_q      <= 1'b0;
+      pending_q    <= 1'b0;
     end else begin
       state_q <= state_d;
       pin_q   <= pin;
       first_q <= settle_o || (first_q && !update_o);
       if (go) absent_q <= !sl_i;
 
-      if (settle_o)    count_q <= NONE;
-      else if (go)     count_q <= FROM_START;
-      else if (over_i) count_q <= FROM_SAMPLE;
-      else             count_q <= count_q - 16'd1;
+      if (counts)                  count_q <= count_q - 16'd1;
+      else if (state_q == STOPPED) count_q <= NONE;
+      else if (state_q == FRAME)   count_q <= FROM_SAMPLE;
+      else                         count_q <= FROM_START;
+      more_q    <= more;
+      settled_q <= (count_q & SETTLE_NEXT) == 16'd0;
 
-      timer_q <= accepts && timer_more ? timer_q - 24'd1 : FIRST;
+      timer_q      <= timer_goes ? timer_q - 24'd1 : FIRST;
+      timer_more_q <= timer_more || !timer_goes;
+      timed_q      <= period_i != 24'd0;
 
       pending_q <= run_i && (settled || (accepts && trigger) || (pending_q && !go));
     end

@@ -15,7 +15,7 @@
 // mutation: biss/biss_os_sampler.sv | sl && !(first_low_i && low_q && !begins_q) | sl && !(first_low_i && low_q)
 // mutation: biss/biss_os_sampler.sv | (begins_q ? 3'd0 : ones_q) | ones_q
 // mutation: biss/biss_os_sampler.sv | strobe2_q.search && !found_q | strobe2_q.search
-// mutation: biss/biss_os_sampler.sv | left = loads_q ? point_i : wait_q | left = loads_q ? point_i + 4'd1 : wait_q
+// mutation: biss/biss_os_sampler.sv | if (loads_q)   wait_q <= point_i; | if (loads_q) wait_q <= point_i + 4'd1;
 // mutation: biss/biss_os_sampler.sv | if (take) wait_q <= 4'd7; | if (take) wait_q <= 4'd8;
 
 module proof (

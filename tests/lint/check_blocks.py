@@ -47,7 +47,6 @@ INSTEAD = {
     "mb4_lines": "test tests/chip/registers/config_change_test.cpp",   # actuators from one flop
     "mb4_spi_cmd": "through mb4_spi",
     "mb4_spi_shift": "through mb4_spi",
-    "pru_average": "through pru_frame",
     "pru_control": "through pru_core",
     "pru_frame": "through pru_core",
     "pru_memory": "through pru_core",

@@ -49,7 +49,8 @@ struct PruCounts {
     if (timer_runs(r))
       timer = static_cast<std::remove_reference_t<decltype(timer)>>(timer - clocks);
     auto& count = r.pru_core__DOT__u_pace__DOT__count_q;
-    count = static_cast<std::remove_reference_t<decltype(count)>>(count - clocks);
+    if (r.pru_core__DOT__u_pace__DOT__counts != 0)
+      count = static_cast<std::remove_reference_t<decltype(count)>>(count - clocks);
   }
 
  private:
@@ -57,12 +58,11 @@ struct PruCounts {
   static constexpr std::uint64_t kBefore = 4;  // clocks before a count has an effect
   // pru_pace::state_e.
   static constexpr unsigned kSettle = 1;
-  static constexpr unsigned kReady = 2;
   static constexpr unsigned kOverhead = 4;
 
   static unsigned state(const Root& r) { return r.pru_core__DOT__u_pace__DOT__state_q; }
   static bool timer_runs(const Root& r) {
-    return state(r) >= kReady && r.pru_core__DOT__u_pace__DOT__timer_more != 0;
+    return r.pru_core__DOT__u_pace__DOT__timer_goes != 0;
   }
   // Up to the clock in which the sum with the period has no carry.
   static std::uint64_t timer_left(const Root& r) {
