@@ -50,10 +50,10 @@ endforeach()
 install(DIRECTORY ${MB4_ROOT}/rtl DESTINATION ${data} COMPONENT rtl
   FILES_MATCHING PATTERN "*.sv" PATTERN "*.svh" PATTERN "*.f" PATTERN "*.vlt")
 # The programs of examples/clb compile drivers/c/pm_bissc.c, which is not installed: an application takes it into its own
-# build.
+# build. Those of examples/pru are made of two files each, one of them a port.
 install(DIRECTORY ${MB4_ROOT}/examples DESTINATION ${data} COMPONENT tool
   FILES_MATCHING PATTERN "*.toml" PATTERN "*.edges" PATTERN "*.c" PATTERN "*.h" PATTERN "firmware" EXCLUDE
-  REGEX "/clb/[a-z_]*[.][ch]$" EXCLUDE)
+  REGEX "/(clb|pru)/[a-z_]*[.][ch]$" EXCLUDE)
 install(DIRECTORY ${MB4_ROOT}/tools/sigrok DESTINATION ${data} COMPONENT tool
   PATTERN __pycache__ EXCLUDE)
 

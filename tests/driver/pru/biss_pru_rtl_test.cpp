@@ -331,7 +331,7 @@ TEST_P(BissPruLine, FaultDuringAnAccess_IsTold) {
   PruRig rig(scenario(kPlain, fault.channel));
   ASSERT_EQ(rig.start(usual()), BISS_PRU_OK);
   ASSERT_EQ(biss_pru_begin_write(&rig.pru, 0, 0x60, 0x5A), BISS_PRU_OK);
-  for (int i = 0; i < 25; ++i) (void)rig.next();
+  for (int i = 0; i < 10; ++i) (void)rig.next();
   EXPECT_EQ(biss_pru_poll(&rig.pru, &rig.data), BISS_PRU_PENDING);
   rig.action(fault.begin);
   EXPECT_EQ(biss_pru_wait(&rig.pru, &rig.data), BISS_PRU_NO_SLAVE);
