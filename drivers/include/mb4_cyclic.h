@@ -690,7 +690,7 @@ static inline void mb4_cyclic_plan(mb4_cyclic *read, mb4_plan *plan, uint8_t wit
     if ((with & MB4_WITH_UNHELD) == 0 || !read->unheld) {
       mb4_cyclic_add_instruction(plan, MB4_CYCLIC_AGS);
     }
-    if (read->watch->held) {
+    if ((with & MB4_WITH_FULL) == 0 || read->watch->held) {
       mb4_cyclic_add_clear(plan, 0xAAAAU, 4); /* SVALID1 to 8: of the other slaves too */
       if ((with & MB4_WITH_FULL) != 0 && read->spi_check >= MB4_SPI_CHECK_FULL) {
         mb4_cyclic_add_clear(plan, 0xAAAAU, 4); /* no status shows that one was lost */
@@ -1341,8 +1341,7 @@ static inline uint8_t mb4_cyclic_step(mb4_cyclic *read, mb4_plan *plan, bool tra
   if (stage == MB4_STAGE_FREE) {
     read->watch->held = !transferred && ((with & MB4_WITH_FULL) == 0 || read->watch->held);
     read->watch->news_us = now_us; /* no bank was switched meanwhile */
-    if (transferred && (with & MB4_WITH_FULL) != 0 &&
-        (read->watch->astray || (!read->unheld && mb4_cyclic_proves(read, with)))) {
+    if (transferred && (with & MB4_WITH_FULL) != 0 && read->watch->astray) {
       return mb4_cyclic_prove(read, plan, MB4_STAGE_PROVE_FREE, code, with);
     }
     return transferred ? mb4_cyclic_try(read, plan, with) : code;

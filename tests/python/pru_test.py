@@ -15,7 +15,7 @@ def test_frames_by_the_memory_bring_positions():
         assert chip.axi_read(0x200) == 0x454E4303
         chip.axi_write(0x000, 5 << 16 | 8 << 8 | 12)
         chip.axi_write(0x210, 1)
-        regs.RUN.write(1)
+        chip.axi_write(0x220, 1)
 
         def frame():
             while chip.pin("irq_o") == 0:
