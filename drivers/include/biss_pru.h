@@ -415,7 +415,8 @@ static inline bool biss_pru_read_memory(const biss_pru_master *pru, biss_pru_rea
  * BISS_PRU_OK: a new position. BISS_PRU_ENCODER_ERROR: what the encoder has sent, for a message.
  * BISS_PRU_NO_SLAVE, BISS_PRU_CRC, BISS_PRU_PROCESSING: *reading has the others of its members.
  * BISS_PRU_NO_NEW_FRAME, BISS_PRU_NO_FRAMES, BISS_PRU_NOT_RUNNING, BISS_PRU_TORN: *reading keeps
- * its values. FRAME_COUNT has 16 bits: after exactly 65,536 frames a new one looks like none. */
+ * its values. A new position may be as old as the call before, or the start. FRAME_COUNT has 16
+ * bits: after exactly 65,536 frames a new one looks like none. */
 BISS_PRU_RESULT biss_pru_position(biss_pru_master *pru, biss_pru_reading *reading) {
   const uint32_t now = biss_pru_now(pru); /* before FRAME_COUNT, as in biss_pru_first_frame() */
   uint16_t count = 0;
