@@ -28,7 +28,7 @@ struct Inside {
 
 template <typename Model>
 std::unique_ptr<AxiModel> make(const ChipConfig& chip, std::uint64_t seed) {
-  return std::make_unique<VerilatedAxi<Model, 4, AxiWholeSteps<Model>, Inside>>(chip, seed, true);
+  return std::make_unique<VerilatedAxi<Model, 4, WholeSteps<Model>, Inside>>(chip, seed, true);
 }
 
 }  // namespace

@@ -32,30 +32,30 @@ struct Edge1 {
   using Kept = axi_1::Kept;
   static void rise(Vaxi_1___024root* root, Kept& kept) { axi_1::rise(root, kept); }
   static void fall(Vaxi_1___024root* root, Kept& kept) { axi_1::fall(root, kept); }
-  static void slo(Vaxi_1___024root* root, Kept& kept) {
+  static void line(Vaxi_1___024root* root, Kept& kept) {
     axi_1::follow_slo(root, kept);
     axi_1::slo_has_changed(kept);
   }
   static void time(Kept& kept) { axi_1::time_has_changed(kept); }
 };
-using Steps1 = AxiPartSteps<Vaxi_1, Edge1>;
+using Steps1 = PartSteps<Vaxi_1, Edge1>;
 #else
-using Steps1 = AxiWholeSteps<Vaxi_1>;
+using Steps1 = WholeSteps<Vaxi_1>;
 #endif
 #ifdef MB4_AXI_4_IN_PARTS
 struct Edge4 {
   using Kept = axi_4::Kept;
   static void rise(Vaxi_4___024root* root, Kept& kept) { axi_4::rise(root, kept); }
   static void fall(Vaxi_4___024root* root, Kept& kept) { axi_4::fall(root, kept); }
-  static void slo(Vaxi_4___024root* root, Kept& kept) {
+  static void line(Vaxi_4___024root* root, Kept& kept) {
     axi_4::follow_slo(root, kept);
     axi_4::slo_has_changed(kept);
   }
   static void time(Kept& kept) { axi_4::time_has_changed(kept); }
 };
-using Steps4 = AxiPartSteps<Vaxi_4, Edge4>;
+using Steps4 = PartSteps<Vaxi_4, Edge4>;
 #else
-using Steps4 = AxiWholeSteps<Vaxi_4>;
+using Steps4 = WholeSteps<Vaxi_4>;
 #endif
 
 }  // namespace

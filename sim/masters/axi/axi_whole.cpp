@@ -27,8 +27,8 @@ namespace {
 
 template <typename Model, unsigned kChannels>
 std::unique_ptr<AxiModel> make(const ChipConfig& chip, std::uint64_t seed, bool plain) {
-  return std::make_unique<VerilatedAxi<Model, kChannels, AxiWholeSteps<Model>, InsideAxi>>(
-      chip, seed, plain);
+  return std::make_unique<VerilatedAxi<Model, kChannels, WholeSteps<Model>, InsideAxi>>(chip, seed,
+                                                                                        plain);
 }
 
 }  // namespace

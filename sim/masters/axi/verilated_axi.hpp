@@ -17,14 +17,14 @@
 
 #include "sim/lines/clocked/clocked_end.hpp"
 #include "sim/masters/axi/axi_model.hpp"
-#include "sim/masters/axi/axi_steps.hpp"
+#include "sim/model/edge_steps.hpp"
 #include "sim/model/one_clock_master.hpp"
 
 namespace mb4::sim {
 
 inline constexpr unsigned kAxiHalfLastLsb = 16;  // place of half_last in axi_pkg::frame_t
 
-// `Steps` evaluates the model (axi_steps.hpp). `Inside` reads frame_q of axi_start, lists pins and
+// `Steps` evaluates the model (edge_steps.hpp). `Inside` reads frame_q of axi_start, lists pins and
 // registers for a waveform, none if the model cannot write one, and has the counts that move while
 // the model is at rest (ModelRest). `plain`: no clock is left out.
 template <typename Model, unsigned kChannels, typename Steps, typename Inside>
@@ -54,7 +54,7 @@ class VerilatedAxi final : public OneClockMaster<VerilatedAxi<Model, kChannels, 
     if (line >= kChannels) return;
     const auto bit = static_cast<Slo>(1U << line);
     model_->slo_i = static_cast<Slo>(levels != 0 ? model_->slo_i | bit : model_->slo_i & ~bit);
-    steps_.slo(*model_);
+    steps_.line(*model_);
     this->rest_.stirred();
     this->show(now);
   }

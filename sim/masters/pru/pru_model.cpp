@@ -14,6 +14,15 @@
 #include <algorithm>
 #include <type_traits>
 
+// Some packages of Verilator leave this number empty. The headers hold what 5.006 writes.
+#if VERILATOR_VERSION_INTEGER + 0 == 5006000
+#include <Vpru_200_edge.hpp>
+#include <Vpru_80_edge.hpp>
+#ifndef MODEL_RUNS_WHOLE
+#define MB4_PRU_IN_PARTS
+#endif
+#endif
+
 #include "sim/masters/pru/pru_master.hpp"
 #include "sim/masters/pru/verilated_pru.hpp"
 #include "sim/model/page_time.hpp"
@@ -61,9 +70,7 @@ struct PruCounts {
   static constexpr unsigned kOverhead = 4;
 
   static unsigned state(const Root& r) { return r.pru_core__DOT__u_pace__DOT__state_q; }
-  static bool timer_runs(const Root& r) {
-    return r.pru_core__DOT__u_pace__DOT__timer_goes != 0;
-  }
+  static bool timer_runs(const Root& r) { return r.pru_core__DOT__u_pace__DOT__timer_goes != 0; }
   // Up to the clock in which the sum with the period has no carry.
   static std::uint64_t timer_left(const Root& r) {
     constexpr std::uint64_t kCarry = std::uint64_t{1} << 24U;
@@ -96,16 +103,42 @@ struct InsidePru {
   static std::vector<WaveSignal> signals(const Model& model) { return wave_signals(*model.rootp); }
 };
 
-template <typename Model, std::uint64_t Hz>
+#ifdef MB4_PRU_IN_PARTS
+#define MB4_PRU_EDGE(mhz)                                                               \
+  struct Edge##mhz {                                                                    \
+    using Root = Vpru_##mhz##___024root;                                                \
+    using Kept = pru_##mhz::Kept;                                                       \
+    static void rise(Root* root, Kept& kept) { pru_##mhz::rise(root, kept); }           \
+    static void fall(Root* root, Kept& kept) { pru_##mhz::fall(root, kept); }           \
+    static void line(Root* /*root*/, Kept& kept) { pru_##mhz::line_has_changed(kept); } \
+    static void time(Kept& kept) { pru_##mhz::counts_have_changed(kept); }              \
+  }
+MB4_PRU_EDGE(80);
+MB4_PRU_EDGE(200);
+#endif
+
+template <typename Model, typename Steps, std::uint64_t Hz>
 std::unique_ptr<PruModel> make(const ChipConfig& chip, std::uint64_t seed, bool plain) {
-  return std::make_unique<VerilatedPru<Model, InsidePru<Model, Hz>>>(chip, seed, plain);
+  return std::make_unique<VerilatedPru<Model, Steps, InsidePru<Model, Hz>>>(chip, seed, plain);
+}
+
+template <typename Model, std::uint64_t Hz>
+std::unique_ptr<PruModel> make_whole(const ChipConfig& chip, std::uint64_t seed, bool plain) {
+  return make<Model, WholeSteps<Model>, Hz>(chip, seed, plain);
 }
 
 }  // namespace
 
 std::unique_ptr<PruModel> make_pru_model(const ChipConfig& chip, std::uint64_t seed, bool plain) {
-  return chip.f_clk_hz == kPruFastHz ? make<Vpru_200, kPruFastHz>(chip, seed, plain)
-                                     : make<Vpru_80, kPruSlowHz>(chip, seed, plain);
+  const bool fast = chip.f_clk_hz == kPruFastHz;
+#ifdef MB4_PRU_IN_PARTS
+  if (!plain) {
+    return fast ? make<Vpru_200, PartSteps<Vpru_200, Edge200>, kPruFastHz>(chip, seed, false)
+                : make<Vpru_80, PartSteps<Vpru_80, Edge80>, kPruSlowHz>(chip, seed, false);
+  }
+#endif
+  return fast ? make_whole<Vpru_200, kPruFastHz>(chip, seed, plain)
+              : make_whole<Vpru_80, kPruSlowHz>(chip, seed, plain);
 }
 
 }  // namespace mb4::sim

@@ -8,20 +8,23 @@
 #include <verilated.h>
 
 #include <cstdint>
+#include <utility>
 
 #include "sim/lines/clocked/clocked_end.hpp"
 #include "sim/masters/pru/pru_model.hpp"
+#include "sim/model/edge_steps.hpp"
 #include "sim/model/one_clock_master.hpp"
 
 namespace mb4::sim {
 
-// `Inside` reads the frequency of MA in MHz, lists pins and registers for a waveform, none if the
-// model cannot write one, and has the counts that move while the model is at rest (ModelRest).
-template <typename Model, typename Inside>
-class VerilatedPru final
-    : public OneClockMaster<VerilatedPru<Model, Inside>, PruModel, Model, typename Inside::Counts> {
+// `Steps` evaluates an edge. `Inside` reads the frequency of MA in MHz, lists pins and
+// registers for a waveform, none if the model cannot write one, and has the counts that move while
+// the model is at rest (ModelRest).
+template <typename Model, typename Steps, typename Inside>
+class VerilatedPru final : public OneClockMaster<VerilatedPru<Model, Steps, Inside>, PruModel,
+                                                 Model, typename Inside::Counts> {
   using Base =
-      OneClockMaster<VerilatedPru<Model, Inside>, PruModel, Model, typename Inside::Counts>;
+      OneClockMaster<VerilatedPru<Model, Steps, Inside>, PruModel, Model, typename Inside::Counts>;
   friend Base;
   using Base::model_;
   using Base::outputs_;
@@ -40,12 +43,13 @@ class VerilatedPru final
   // No output depends on SL or the trigger before a clock edge.
   void set_inputs(Time now, unsigned /*line*/, unsigned levels) override {
     model_->sl_i = levels != 0 ? 1 : 0;
+    steps_.line(*model_);
     this->rest_.stirred();
     this->show(now);
   }
   void set_trigger(Time now, bool level) override {
     model_->trigger_i = level ? 1 : 0;
-    this->rest_.stirred();
+    this->move();
     this->show(now);
   }
   unsigned half_clocks(unsigned /*line*/) const override {
@@ -77,18 +81,14 @@ class VerilatedPru final
 
  private:
   // What OneClockMaster asks for.
-  void before(Time /*now*/) {}
-  void rise() {
-    model_->clk_i = 1;
-    model_->eval();
+  void before(Time /*now*/) {
+    if (std::exchange(moved_, false)) evaluate();
   }
-  void fall() {
-    model_->clk_i = 0;
-    model_->eval();
-  }
-  void evaluate() { model_->eval(); }
-  void passed() {}
-  void moved() {}
+  void rise() { steps_.rise(*model_); }
+  void fall() { steps_.fall(*model_); }
+  void evaluate() { steps_.inputs(*model_); }
+  void passed() { steps_.time_passed(); }
+  void moved() { moved_ = true; }
   void answered() { answered_ ^= PruModel::kAnswered; }
   void changed(Outputs /*before*/) {}
   void pack() {
@@ -96,7 +96,9 @@ class VerilatedPru final
     outputs_ = answered_ | m.ma_o * MasterModel::of_line(0, kMaPin) | m.irq_o * PruModel::kIrq;
   }
 
-  unsigned half_mhz_;  // clocks of half a period of MA at 1 MHz
+  Steps steps_;
+  bool moved_ = false;  // inputs have changed since the last edge, beside SL
+  unsigned half_mhz_;   // clocks of half a period of MA at 1 MHz
   Outputs answered_ = 0;
   // Levels at the encoder, for the waveform.
   std::uint64_t encoder_ma_ = 1;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The ways to evaluate an edge of the clock (sim/masters/axi/axi_steps.hpp) give the same results:
+// The ways to evaluate an edge of the clock (sim/model/edge_steps.hpp) give the same results:
 // two masters see the same random session, one of them evaluated in the simplest way.
 #include <string>
 #include <vector>

@@ -25,14 +25,17 @@ struct Inside {
   }
 };
 
+template <typename Model>
+std::unique_ptr<PruModel> make(const ChipConfig& chip, std::uint64_t seed) {
+  return std::make_unique<VerilatedPru<Model, WholeSteps<Model>, Inside>>(chip, seed, true);
+}
+
 }  // namespace
 
 std::unique_ptr<PruModel> make_pru_model(const ChipConfig& chip, std::uint64_t seed,
                                          bool /*plain*/) {
-  if (chip.f_clk_hz == kPruFastHz) {
-    return std::make_unique<VerilatedPru<Vmeasured_pru_200, Inside>>(chip, seed, true);
-  }
-  return std::make_unique<VerilatedPru<Vmeasured_pru_80, Inside>>(chip, seed, true);
+  return chip.f_clk_hz == kPruFastHz ? make<Vmeasured_pru_200>(chip, seed)
+                                     : make<Vmeasured_pru_80>(chip, seed);
 }
 
 }  // namespace mb4::sim

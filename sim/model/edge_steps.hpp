@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How an edge of axi_aclk evaluates the model. All ways give the same results; AxiSteps.* of
-// tests/chip/axi/ compares them.
-#ifndef MB4SIM_AXI_STEPS_HPP_
-#define MB4SIM_AXI_STEPS_HPP_
+// How an edge of the clock of a master with one clock, clk_i, evaluates its model. All ways give
+// the same results: AxiSteps.* and PruRest.* of tests/chip/ compare them.
+#ifndef MB4SIM_MODEL_EDGE_STEPS_HPP_
+#define MB4SIM_MODEL_EDGE_STEPS_HPP_
 
 #include <verilated.h>
 
@@ -12,13 +12,13 @@ namespace mb4::sim {
 
 // With eval().
 template <typename Model>
-class AxiWholeSteps {
+class WholeSteps {
  public:
   // Inputs have changed. Outputs that depend on them without a clock follow.
   void inputs(Model& model) { model.eval(); }
-  // SLO has changed, and no other input.
-  void slo(Model& /*model*/) {}
-  // The count of the sample clock has been set forward.
+  // What comes from a line has changed, and no other input.
+  void line(Model& /*model*/) {}
+  // Counts have been set forward.
   void time_passed() {}
   void rise(Model& model) {
     model.clk_i = 1;
@@ -33,13 +33,13 @@ class AxiWholeSteps {
 // Only the parts of the edge whose inputs have changed run (sim/model/parts/model_parts.py).
 // `Edge` has the functions of the header that it makes.
 template <typename Model, typename Edge>
-class AxiPartSteps {
+class PartSteps {
  public:
   void inputs(Model& model) {
     model.eval();
     kept_.all(*model.rootp);
   }
-  void slo(Model& model) { Edge::slo(model.rootp, kept_); }
+  void line(Model& model) { Edge::line(model.rootp, kept_); }
   void time_passed() { Edge::time(kept_); }
   void rise(Model& model) {
     model.clk_i = 1;
@@ -58,4 +58,4 @@ class AxiPartSteps {
 
 }  // namespace mb4::sim
 
-#endif  // MB4SIM_AXI_STEPS_HPP_
+#endif  // MB4SIM_MODEL_EDGE_STEPS_HPP_
