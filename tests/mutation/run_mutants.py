@@ -39,7 +39,7 @@ LEFT_OUT = "-" + ":".join(
     line for line in (HERE.parent / "support" / "statistics.txt").read_text("utf-8").splitlines()
     if not line.startswith("#"))
 SMALL = {"MB4_RANDOM_CONFIGS": "100", "MB4_FAULT_FRAMES": "2000", "MB4_LINE_FRAMES": "1210",
-         "MB4_HOST_FRAMES": "300"}
+         "MB4_HOST_FRAMES": "300", "MB4_PRU_ACCESSES": "4000"}
 FIRST_BATCH = 2.0  # seconds; each batch takes twice as long as the one before
 EQUIVALENT_MEETS = 4  # batches
 EXPECTED = HERE / "equivalent.txt"
