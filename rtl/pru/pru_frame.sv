@@ -5,8 +5,9 @@
 //
 // Clock domain: core; sl_i is asynchronous. start_i begins a frame; MA falls half an MA period
 // later. over_o is high for one clock, three clocks behind the last sample; found_o then stays
-// until the next start, its point until update_i or forget_i. rests_o: MA does not move. latch_o is
-// high in the clock that ends with the first rising edge of MA.
+// until the next start, its point until update_i or forget_i. rests_o: MA does not move; if it is 0
+// it has been so for half a period at least. latch_o is high in the clock that ends with the first
+// rising edge of MA.
 //
 // MA has 5 rising edges, one for each period of processing time, one for each bit of position, nE,
 // nW and CRC, whatever the line delay. With CDM = 1 the last one is not sent, and MA stays 0 until
@@ -67,6 +68,7 @@ module pru_frame #(
   logic        first_q;        // one rising edge has come
   logic        second;
   logic        kill_q;         // MA has to return to 1
+  logic        lasts_q;        // the half period that runs began with a falling edge of the clock
   logic        ends_ma;
   logic        seen_q;         // the start bit has come, or no acknowledge
   logic [6:0]  bits_q;         // of the word
@@ -183,7 +185,7 @@ module pru_frame #(
     .top_o   (crc_top)
   );
 
-  assign run    = state_q != REST || ma_clocks || (kill_q && !ma);
+  assign run    = state_q != REST || ma_clocks || (!ma && (kill_q || lasts_q));
   // A tick makes its edge: MA keeps the places of its edges to the last one.
   assign ends_ma = stop_i || late || kill_q;
   assign second = state_q == EDGES && rise && first_q;
@@ -218,6 +220,7 @@ module pru_frame #(
       state_q      <= REST;
       first_q      <= 1'b0;
       kill_q       <= 1'b0;
+      lasts_q      <= 1'b0;
       seen_q       <= 1'b0;
       ahead_q      <= '0;
       line_q       <= '0;
@@ -227,6 +230,7 @@ module pru_frame #(
       state_q <= state_d;
       first_q <= state_q == EDGES && (first_q || rise);
       kill_q  <= !start_i && (kill_q || stop_i || late);
+      if (tick) lasts_q <= ma_clocks && !half_next;
       seen_q  <= !start_i && (seen_q || one || silent);
 
       if (start_i)           ahead_q <= '0;
@@ -317,7 +321,7 @@ module pru_frame #(
   end
 
   assign over_o     = over;
-  assign rests_o    = state_q == REST && !ma_clocks && (ma || !kill_q);
+  assign rests_o    = !run;
   assign latch_o    = rise && state_q == EDGES && !first_q;
   assign averages_o = valid;
   assign ma_o       = ma;

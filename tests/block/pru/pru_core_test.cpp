@@ -220,6 +220,41 @@ void judge_frames(unsigned frames) {
   EXPECT_GT(averaged, frames / 10);
 }
 
+// Frames follow each other as closely as they can, and CDM leaves MA at 0 behind some of them. The
+// encoder is nearer than a sample and its timeout is short, so SL is 1 before each frame.
+template <typename Bench>
+void look_at_levels_of_ma() {
+  constexpr Time kHalf = 500'000;  // of a period at 1 MHz
+  Bench bench;
+  bench.write(reg::kAddrLengths, 12 | 8U << 8U | 1U << 16U);
+  bench.write(reg::kAddrOverhead, 0);
+  bench.write(reg::kAddrTriggerPeriod, 2);
+  bench.encoder.payload = std::string(21, '1');
+  bench.encoder.timeout = kHalf * 6 / 5;
+  bench.write(reg::kAddrRun, 1);
+  bench.write(reg::kAddrCtrl, 0xFFFFFFFF);
+  bool level = true;
+  Time since = bench.now;
+  unsigned levels = 0;
+  unsigned frames = 0;
+  while (frames < 60) {
+    bench.clock();
+    if ((bench.m.ma_o != 0) == level) continue;
+    EXPECT_GE(bench.now - since, kHalf) << "frame " << frames << ", MA at " << level;
+    frames += bench.now - since > kHalf ? 1 : 0;
+    level = !level;
+    since = bench.now;
+    ++levels;
+  }
+  EXPECT_NE(bench.read(reg::kAddrIrqStatus) & 4U, 0U) << "no control frame has ended";
+  EXPECT_GT(levels, 60U * 40U);
+}
+
+TEST(PruMa, CdmOneAndFramesWithoutAPause_EveryLevelLastsHalfAPeriod) {
+  look_at_levels_of_ma<mb4test::PruBench200>();
+  look_at_levels_of_ma<mb4test::PruBench80>();
+}
+
 TEST(Pru, FramesAtRandom200MHz_MemoryIsThatOfTheJudge) {
   judge_frames<mb4test::PruBench200>(frames_of(1000));
 }
