@@ -531,8 +531,8 @@ MB4_APART uint8_t mb4_cyclic_release(mb4_cyclic *read, mb4_plan *plan, uint8_t c
   return MB4_MORE;
 }
 
-/* A status shows whether the bank is free; FULL_AND_RELEASE: until then it counts as held. It goes
- * on to 0xF5 where that has to be seen. */
+/* A status shows whether the bank is free; FULL_AND_RELEASE: until then it counts as held, else as
+ * before. It goes on to 0xF5 where that has to be seen. */
 static inline uint8_t mb4_cyclic_prove(mb4_cyclic *read, mb4_plan *plan, uint8_t stage,
                                        uint8_t code, uint8_t with) {
   read->watch->held = read->watch->held || mb4_cyclic_proves(read, with);
@@ -1111,7 +1111,8 @@ static inline uint8_t mb4_cyclic_take_unheld(mb4_cyclic *read, mb4_plan *plan, u
     return code;
   }
   if (mb4_cyclic_valid(read) != 0 || mb4_cyclic_frame_bad(read)) {
-    read->watch->astray = (with & MB4_WITH_FULL) != 0; /* or a frame has ended */
+    read->watch->astray = (with & MB4_WITH_FULL) != 0 &&
+                          read->spi_check >= MB4_SPI_CHECK_FULL; /* or a frame has ended */
     mb4_cyclic_all(read, with);
     return mb4_cyclic_unheld(read, plan, MB4_BANK_SWITCHED, with);
   }
@@ -1339,10 +1340,13 @@ static inline uint8_t mb4_cyclic_step(mb4_cyclic *read, mb4_plan *plan, bool tra
                : mb4_cyclic_watch(read, plan, MB4_OK, now_us, with);
   }
   if (stage == MB4_STAGE_FREE) {
-    read->watch->held = !transferred && ((with & MB4_WITH_FULL) == 0 || read->watch->held);
     read->watch->news_us = now_us; /* no bank was switched meanwhile */
     if (transferred && (with & MB4_WITH_FULL) != 0 && read->watch->astray) {
+      /* A bank that was held stays so until the proof: the clears may have met it. */
       return mb4_cyclic_prove(read, plan, MB4_STAGE_PROVE_FREE, code, with);
+    }
+    if ((with & MB4_WITH_FULL) == 0 || !read->watch->astray) {
+      read->watch->held = !transferred;
     }
     return transferred ? mb4_cyclic_try(read, plan, with) : code;
   }
@@ -1468,7 +1472,9 @@ MB4_APART void mb4_cyclic_count_read(const mb4_cyclic *read, uint8_t code, uint3
  *
  * At most five calls a read; seven with MB4_SPI_CHECK_FULL or unheld, eight with
  * MB4_SPI_CHECK_FULL_AND_RELEASE. After a read that has ended without the release of the bank one
- * more, with MB4_SPI_CHECK_FULL_AND_RELEASE two.
+ * more, with MB4_SPI_CHECK_FULL and above two; these too after one whose SVALID = 0 was not seen.
+ * MB4_CORRUPTED that does not end may be an MA line that such a write has forced: start the frames
+ * anew.
  * A read may be given up: call this function with transferred = false, without the frames, until it
  * does not return MB4_MORE. */
 static inline uint8_t mb4_cyclic_finish(mb4_cyclic *read, mb4_plan *plan, bool transferred,

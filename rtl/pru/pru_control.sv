@@ -62,7 +62,7 @@ module pru_control (
   assign any     = word != 32'd0;
   assign step    = step_i && clocked_i && runs_q;
   assign ends    = step && count_q == LAST;
-  assign take    = step_i && (!runs_q || ends) && armed_q && any && write_i == 4'd0;
+  assign take    = step_i && !clear_i && (!runs_q || ends) && armed_q && any && write_i == 4'd0;
   assign in_data = count_q >= DATA && count_q < CRC;
   assign in_crc  = count_q >= CRC;
 

@@ -83,7 +83,8 @@ module pru_core #(
   logic [1:0]  plan_mhz_q;
   logic        plan_cdm_q;
   logic        calm_q;          // MA rests, and the plan is that of the next frame
-  logic [9:0]  proc_max;
+  logic [9:0]  proc_max;        // of the next frame
+  logic [9:0]  proc_max_q;
   logic        unused;
 
   enc_reset_sync u_rst (
@@ -208,7 +209,7 @@ module pru_core #(
   always_comb begin
     proc_max = cfg.proc_max;
     if (cfg.proc_max == 10'd0) begin
-      unique case (plan.mhz)
+      unique case (mhz)
         pru_pkg::MHZ_1: proc_max = 10'd40;
         pru_pkg::MHZ_2: proc_max = 10'd80;
         pru_pkg::MHZ_5: proc_max = 10'd200;
@@ -222,11 +223,13 @@ module pru_core #(
     if (!rst_n) begin
       plan_mhz_q <= pru_pkg::MHZ_1;
       plan_cdm_q <= 1'b0;
+      proc_max_q <= '0;
       calm_q     <= 1'b0;
     end else begin
       if (rests) begin
         plan_mhz_q <= mhz;
         plan_cdm_q <= cdm;
+        proc_max_q <= proc_max;
       end
       calm_q <= rests && !update;
     end
@@ -244,7 +247,7 @@ module pru_core #(
     .rst_ni     (rst_n),
     .quirks_i,
     .plan_i     (plan),
-    .proc_max_i (proc_max),
+    .proc_max_i (proc_max_q),
     .start_i    (start),
     .stop_i     (stop),
     .forget_i   (settle || (update && mhz_next != mhz)),

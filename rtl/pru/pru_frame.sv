@@ -12,7 +12,7 @@
 // MA has 5 rising edges, one for each period of processing time, one for each bit of position, nE,
 // nW and CRC, whatever the line delay. With CDM = 1 the last one is not sent, and MA stays 0 until
 // the next frame. MA does not stop before the start bit has come: if the line delay is as long as
-// the frame, one edge more is sent before the start bit is known.
+// the frame, one or two edges more are sent before the start bit is known.
 // A frame ends
 // - with its last bit;
 // - without acknowledge, when the byte of n = 3 + bits periods, too, has been 0xFF;

@@ -19,6 +19,7 @@ from typing import NamedTuple
 MARK = "<!-- measured by tests/docs/samplers.py -->\n"
 STEP = 5  # percent of T_MA
 MOST = 70
+FRAMES = 8  # at each delay and jitter
 
 
 class Sampler(NamedTuple):
@@ -89,7 +90,7 @@ def measure(bench, frames):
         skews = []
         for sign in (-1, 1):
             skew = 0
-            while skew < 50:
+            while skew < MOST:
                 _, of_skew = bench.sweep(sampler, "0", sign * (skew + STEP), 1, 1)
                 if any(of_skew.values()):
                     break
@@ -138,10 +139,13 @@ def check(bench, page):
     findings = []
     for sampler, row in zip(SAMPLERS, rows):
         jitter, late, early = (int(re.match(r"(\d+) %", cell)[1]) for cell in row[2:5])
-        for jitters, skew in ((str(jitter), 0), ("0", late), ("0", -early)):
-            words, bad = bench.sweep(sampler, jitters, skew, 2, 7, 41)
-            if any(bad.values()) or not words:
-                findings.append(f"{sampler.name}, {sampler.mhz} MHz: bad words {bad} with jitter {jitters} %, skew {skew} %")
+        # Within each margin all words are good; three steps beyond it some are not.
+        for jitters, skew, good in ((jitter, 0, True), (0, late, True), (0, -early, True), (jitter + 3 * STEP, 0, False),
+                                    (0, late + 3 * STEP, False), (0, -early - 3 * STEP, False)):
+            words, bad = bench.sweep(sampler, str(jitters), skew, 2 if good else FRAMES, 7, 41)
+            if not words or any(bad.values()) == good:
+                findings.append(f"{sampler.name}, {sampler.mhz} MHz: {sum(bad.values())} bad words with jitter {jitters} %, "
+                                f"skew {skew} %")
     return findings
 
 
@@ -157,7 +161,7 @@ def main():
             findings = check(bench, text)
             print("\n".join(findings) or f"{len(SAMPLERS)} samplers, each margin holds")
             return 1 if findings else 0
-        found = measure(bench, 8)
+        found = measure(bench, FRAMES)
     before, after = text.split(MARK)[0], text.split(MARK)[2]
     page.write_text(before + MARK + table(found) + MARK + after, encoding="utf-8")
     draw(found, root / "docs" / "pictures" / "samplers.svg")

@@ -190,6 +190,7 @@ struct SweepCodes {
   std::string_view period = "T_MA";  // what a jitter is a part of
   // Jitter up to which every word must be good, in thousandths of a percent. Null: 25 %.
   long long (*allowed)(unsigned code) = nullptr;
+  unsigned unmeasured = 0;  // frames at first that do not count: the master learns from them
   // --- codes that are no frequencies ---
   unsigned (*present)(const sim::Scenario& scenario) = nullptr;  // what the scenario says
   void (*set)(sim::Scenario& scenario, unsigned code) = nullptr;

@@ -26,12 +26,11 @@
 namespace mb4 {
 
 // Most SPI transfers of one Automatic::poll_slave(), whatever the chip answers. Beside a control
-// communication without Config::hold_beside_access it takes up to 9, with SpiCheck::kFull 15, with
-// kFullAndRelease 16.
+// communication without Config::hold_beside_access it takes up to 9, with SpiCheck::kFull and
+// kFullAndRelease 17.
 inline constexpr unsigned kMaxPollSlaveTransfers = 10;
-// The same with SpiCheck::kFull. SpiCheck::kFullAndRelease needs up to 3 more: one at the end, two
-// after a read that could not release the bank.
-inline constexpr unsigned kMaxPollSlaveTransfersChecked = 12;
+// The same with SpiCheck::kFull. SpiCheck::kFullAndRelease needs one more.
+inline constexpr unsigned kMaxPollSlaveTransfersChecked = 14;
 
 // Automatic frames, at the rate or on the event that Config::frame_start selects (table 44):
 //
@@ -150,9 +149,9 @@ class Automatic {
   // where a stored CRC does not prove it or an address was sent (0x03: a wrong one reads the word
   // of another slave), and the status once or twice after a 0x02 of its own.
   // Beside a control communication without Config::hold_beside_access the order is 0x05, 0x02,
-  // data, 0x05, twice at most. After a read that could not release the bank, 2 more come first.
-  // SpiCheck::kFullAndRelease reads the status after each 0x07 that releases the bank, and writes
-  // the 0x02 of the 2 more twice.
+  // data, 0x05, twice at most. After a read that could not release the bank, 0x07 and 0x02
+  // come first; with SpiCheck::kFull 0x02 twice, and 0x05 up to 0xF5.
+  // SpiCheck::kFullAndRelease reads the status after each 0x07 that releases the bank.
   //
   // After a frame with a bad word (nSCDERR = 0) it checks the data of the slaves without SVALID as
   // well: a stored CRC that fits shows a word that has been read before. A bad word then gets the

@@ -143,7 +143,7 @@ void judge_frames(unsigned frames) {
     const unsigned rates[] = {1, 2, 5, 10};
     unsigned mhz = rates[dice.below(4)];
     judged.write(reg::kAddrLengths, bits | tail << 8U | mhz << 16U);
-    const unsigned most = dice.below(3) == 0 ? 0 : 1 + dice.below(30);
+    unsigned most = dice.below(3) == 0 ? 0 : 1 + dice.below(30);
     judged.write(reg::kAddrProcTimeMax, most);
     judged.write(reg::kAddrOverhead, dice.below(8) == 0 ? dice.below(6) : 100 + dice.below(2000));
     const double jitter = dice.below(3) == 0 ? 0 : dice.below(36) / 100.0;
@@ -186,6 +186,10 @@ void judge_frames(unsigned frames) {
       if (dice.below(10) == 0) {
         judged.write(reg::kAddrCtrl, dice.below(1U << 31) << 1U | dice.below(2),
                      1 + dice.below(15));
+      }
+      if (dice.below(15) == 0) {
+        most = dice.below(3) == 0 ? 0 : 1 + dice.below(30);
+        judged.write(reg::kAddrProcTimeMax, most);
       }
       if (dice.below(25) == 0) {
         bench.stuck = dice.below(2) != 0;

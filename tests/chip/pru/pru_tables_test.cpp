@@ -186,7 +186,7 @@ TEST(PruControl, PrintedRow6_IsRefusedAndTold) {
   EXPECT_EQ(pru.access(0x8C174000), 0x06);
 }
 
-// From the frame of START to the end FLAGS bit 2 is 1: 32 of 46 frames.
+// From the frame of START on FLAGS bit 2 is 1; the last of the 46 frames clears it.
 TEST(PruControl, FlagOfTheControlFrame_IsThatOfItsFrames) {
   PruSim pru(pru_scenario(encoder("", "")));
   pru.start(kBits, kTail, 10);

@@ -369,13 +369,22 @@ TEST(DriverProvenClear, FlippedAddressForcesMa_NoWordOfThatFrameIsGood) {
 // A program in C starts the frames itself, and sets `held`: words may wait from before. Each fault
 // of its first read, and the encoder has gone meanwhile.
 TEST(DriverProvenCyclic, HeldAtTheStart_NoFaultBringsAWordFromBefore) {
-  for (const mb4::SpiCheck check : {mb4::SpiCheck::kFull, mb4::SpiCheck::kFullAndRelease}) {
+  for (const unsigned way : {0U, 1U, 2U, 3U}) {
+    const mb4::SpiCheck check =
+        way % 2 == 0 ? mb4::SpiCheck::kFull : mb4::SpiCheck::kFullAndRelease;
+    const bool holds = way >= 2;
     Config of_check = config();
     of_check.spi_check = check;
-    const auto prepare = [&of_check](FaultyChip& chip, mb4test::C99Read& c) {
+    const auto prepare = [&of_check, holds](FaultyChip& chip, mb4test::C99Read& c) {
       ASSERT_TRUE(chip.device.configure(of_check).ok());
       ASSERT_TRUE(chip.device.automatic().start().ok());
       chip.simulator.advance(350 * sim::kPsPerUs);  // frames of both banks
+      if (holds) {  // a program that was given up has left the bank held, and frames wait behind it
+        const std::array<std::uint8_t, 2> hold{0x07, 0x41};
+        std::array<std::uint8_t, 2> none{};
+        ASSERT_TRUE(chip.bus.transfer({hold.data(), 2}, {none.data(), 0}));
+        chip.simulator.advance(250 * sim::kPsPerUs);
+      }
       clocked(chip.simulator.line(1))->faults().stick(false);
       chip.simulator.refresh_lines();
       chip.simulator.advance(150 * sim::kPsPerUs);

@@ -27,6 +27,7 @@ constexpr unsigned kMostBits = 63;  // of position, nE, nW and CRC
 constexpr sim::Time kUsualPeriod = 100 * sim::kPsPerUs;
 constexpr sim::Time kLongestFrame = 2'000 * sim::kPsPerUs;
 constexpr std::uint64_t kHzOfMhz = 1'000'000;
+constexpr unsigned kAveraged = 4;  // frames behind a change of the rate, before there is an average
 
 constexpr const char* kNoAnswer = "AXI: no answer, or an error answer";
 
@@ -214,6 +215,7 @@ const MasterSupport kPruSupport{
     .sweep = {.name = "FREQUENCY",
               .most = 10,
               .refuses = "FREQUENCY is 1, 2, 5 or 10; not",
-              .divider = ma_clocks}};
+              .divider = ma_clocks,
+              .unmeasured = kAveraged}};
 
 }  // namespace mb4::tool

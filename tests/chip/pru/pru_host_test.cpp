@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the host tells the master and hears of it: RUN and its 40 us, the timer, triggers that are
+// lost, times, a limit that changes while a frame runs.
+#include <string>
+
+#include "tests/chip/pru/pru_sim.hpp"
+
+namespace mb4test {
+namespace {
+
+constexpr std::uint32_t kMhz = 200;  // clocks of a microsecond
+
+std::string encoder(unsigned bits, const std::string& slave = "") {
+  return "[[channel]]\nnumber = 1\n[[channel.slave]]\nprotocol = \"biss-c\"\ncrc = 0x43\n"
+         "data_bits = " +
+         std::to_string(bits + 2) + "\n" + slave;
+}
+
+// Rising edges of MA, as clocks since the simulation began.
+std::uint64_t next_rise(PruSim& pru) {
+  const sim::Pin ma = *pru.simulator.pin_by_name("ma_o");
+  bool before = pru.simulator.pin(ma);
+  EXPECT_TRUE(pru.simulator.run_while_waiting(
+      [&] {
+        const bool level = pru.simulator.pin(ma);
+        const bool rises = level && !before;
+        before = level;
+        return rises;
+      },
+      pru.simulator.now() + 5'000 * sim::kPsPerUs));
+  return pru.simulator.clk_cycles();
+}
+
+// R-P4: 40 us, a frame at 1 MHz, and the timer starts with it.
+TEST(PruHost, Run_Waits40MicrosecondsAndStartsTheTimer) {
+  for (const unsigned mhz : {1U, 2U, 5U, 10U}) {
+    PruSim pru(pru_scenario(encoder(12)));
+    pru.write(prureg::kAddrLengths, 12U | 8U << 8U | mhz << 16U);
+    pru.write(prureg::kAddrIrqEnable, prureg::FRAME_ENDED_ENABLE::kMask);
+    pru.write(prureg::kAddrRun, 1);
+    const std::uint64_t run = pru.simulator.clk_cycles();
+    const std::uint64_t first = next_rise(pru);
+    // The first rise comes a period of 1 MHz behind the start.
+    EXPECT_NEAR(static_cast<double>(first - run), 41.0 * kMhz, 10);
+    const PruFrame of_run = pru.frame();
+    const PruFrame second = pru.frame();
+    const double periods = 100 + 1.0 / mhz - 1;  // 100 us behind the start of the first
+    EXPECT_NEAR(second.latch - of_run.latch, periods * kMhz, 2) << mhz;
+    EXPECT_EQ(pru.frame().latch - second.latch, 100 * kMhz);
+  }
+}
+
+// LATCH_TIME is TIME_LOW of the first rising edge of MA.
+TEST(PruHost, LatchTime_IsTheTimeOfTheFirstEdge) {
+  PruSim pru(pru_scenario(encoder(12)));
+  pru.start(12, 8, 5);
+  const std::uint64_t edge = next_rise(pru);
+  // The value of an access is that of a clock within it.
+  const std::uint64_t before = pru.simulator.clk_cycles();
+  const std::uint32_t time = pru.read(prureg::kAddrTimeLow);
+  const std::uint64_t after = pru.simulator.clk_cycles();
+  ASSERT_LT(after - before, 12U);
+  const std::uint32_t latch = pru.read(prureg::kAddrLatchTime);
+  EXPECT_GE(time - latch, before - edge);
+  EXPECT_LE(time - latch, after - edge);
+}
+
+// R-P10: a frame that is longer than the period starts the next one at once; the triggers between
+// are lost.
+TEST(PruHost, FrameLongerThanThePeriod_StartsTheNextOneAtOnce) {
+  PruSim pru(pru_scenario(encoder(53)));
+  const auto lost = [](const PruFrame& frame) { return (frame.irq & prureg::LOST::kMask) != 0; };
+  pru.start(53, 8, 1, 1000);
+  EXPECT_FALSE(lost(pru.frame()));
+  PruFrame before = pru.frame();
+  EXPECT_FALSE(lost(before));
+  EXPECT_NE(before.irq & prureg::TRIGGER::kMask, 0U);
+  pru.write(prureg::kAddrTriggerPeriod, 30 * kMhz);
+  pru.frame();
+  before = pru.frame();
+  for (unsigned i = 0; i < 5; ++i) {
+    const PruFrame frame = pru.frame();
+    EXPECT_TRUE(lost(frame));
+    EXPECT_EQ(frame.flags() & ~kPruAverage, 0U);
+    // 66 periods to the last bit, 27 us, and some clocks.
+    EXPECT_NEAR(frame.latch - before.latch, (65.0 + 27.0) * kMhz, 2.0 * kMhz);
+    before = frame;
+  }
+  // A host that does not clear FRAME_ENDED loses a frame, and is told so too.
+  pru.write(prureg::kAddrTriggerPeriod, 200 * kMhz);
+  pru.frame();
+  pru.frame();
+  pru.simulator.advance(500 * sim::kPsPerUs);
+  EXPECT_TRUE(lost(pru.frame()));
+}
+
+// A limit that the host writes while a frame runs is that of the next one.
+TEST(PruHost, ProcTimeMaxWhileAFrameWaits_CountsFromTheNextOne) {
+  for (const unsigned busy : {300U, 900U}) {
+    PruSim pru(pru_scenario(encoder(12, "busy_periods = " + std::to_string(busy) + "\n")));
+    pru.write(prureg::kAddrProcTimeMax, 1000);
+    EXPECT_EQ(pru.start(12, 8, 1, 2000).processing(), busy);
+    next_rise(pru);
+    pru.simulator.advance(30 * sim::kPsPerUs);
+    pru.write(prureg::kAddrProcTimeMax, 10);
+    const PruFrame own = pru.frame();
+    EXPECT_EQ(own.processing(), busy);
+    EXPECT_EQ(own.flags(), 0U);
+    const PruFrame next = pru.frame();
+    EXPECT_EQ(next.processing(), 11U);
+    EXPECT_EQ(next.flags(), kPruLate);
+  }
+}
+
+}  // namespace
+}  // namespace mb4test
