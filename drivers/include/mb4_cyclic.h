@@ -531,11 +531,9 @@ MB4_APART uint8_t mb4_cyclic_release(mb4_cyclic *read, mb4_plan *plan, uint8_t c
   return MB4_MORE;
 }
 
-/* A status shows whether the bank is free; FULL_AND_RELEASE: until then it counts as held, else as
- * before. It goes on to 0xF5 where that has to be seen. */
+/* A status shows whether the bank is free. It goes on to 0xF5 where that has to be seen. */
 static inline uint8_t mb4_cyclic_prove(mb4_cyclic *read, mb4_plan *plan, uint8_t stage,
-                                       uint8_t code, uint8_t with) {
-  read->watch->held = read->watch->held || mb4_cyclic_proves(read, with);
+                                       uint8_t code) {
   (void)mb4_cyclic_next(read, plan, stage, code);
   mb4_cyclic_add_proof(plan, read->watch->astray);
   return MB4_MORE;
@@ -1341,24 +1339,26 @@ static inline uint8_t mb4_cyclic_step(mb4_cyclic *read, mb4_plan *plan, bool tra
   }
   if (stage == MB4_STAGE_FREE) {
     read->watch->news_us = now_us; /* no bank was switched meanwhile */
-    if (transferred && (with & MB4_WITH_FULL) != 0 && read->watch->astray) {
+    if (!transferred) {
+      return code;
+    }
+    if ((with & MB4_WITH_FULL) != 0 && read->watch->astray) {
       /* A bank that was held stays so until the proof: the clears may have met it. */
-      return mb4_cyclic_prove(read, plan, MB4_STAGE_PROVE_FREE, code, with);
+      return mb4_cyclic_prove(read, plan, MB4_STAGE_PROVE_FREE, code);
     }
-    if ((with & MB4_WITH_FULL) == 0 || !read->watch->astray) {
-      read->watch->held = !transferred;
-    }
-    return transferred ? mb4_cyclic_try(read, plan, with) : code;
+    read->watch->held = false;
+    return mb4_cyclic_try(read, plan, with);
   }
   if (stage == MB4_STAGE_END) {
     /* The release was the last frame. If it was not alone, it may not have been tried. */
     if (!transferred && (plan->frames > 1 || plan->size[0] > 2)) {
       return mb4_cyclic_release(read, plan, code);
     }
-    if (transferred && mb4_cyclic_proves(read, with)) {
-      return mb4_cyclic_prove(read, plan, MB4_STAGE_PROVE_END, code, with);
+    /* The bank counts as held until it is known to be free. */
+    read->watch->held = !transferred || mb4_cyclic_proves(read, with);
+    if (transferred && read->watch->held) {
+      return mb4_cyclic_prove(read, plan, MB4_STAGE_PROVE_END, code);
     }
-    read->watch->held = !transferred;
   } else if ((with & MB4_WITH_FULL) != 0 && stage >= MB4_STAGE_PROVE_END) {
     code = transferred ? mb4_cyclic_take_proof(read, plan) : code;
     if (stage == MB4_STAGE_PROVE_FREE && code == MB4_OK) {
