@@ -1,0 +1,10 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The DSL master, as far as it goes. Paths are relative to this folder; packages come first.
+-F ../common/common.f
+dsl_pkg.sv
+dsl_code_tx.sv
+dsl_code_rx.sv
+dsl_phy.sv
+dsl_tx.sv
