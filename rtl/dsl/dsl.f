@@ -8,3 +8,7 @@ dsl_code_tx.sv
 dsl_code_rx.sv
 dsl_phy.sv
 dsl_tx.sv
+dsl_sample.sv
+dsl_learn.sv
+dsl_rx.sv
+dsl_receiver.sv

@@ -15,8 +15,35 @@ package dsl_pkg;
   localparam logic [4:0] INIT       = 5'h1E;
   localparam logic [4:0] RESET      = 5'h1F;
 
-  localparam logic [6:0] ANSWER_BITS = 7'd61;
-  localparam logic [6:0] LAST_SLOT   = 7'd71;   // of the window that is looked at
+  localparam logic [5:0] LAST_BIT    = 6'd60;    // of an answer
+  localparam logic [9:0] LAST_SAMPLE = 10'd575;  // of the window that is looked at: 72 slots
+  localparam logic [3:0] MIN_DELAY   = 4'd1;     // whole bits that an answer may come late
+  localparam logic [3:0] MAX_DELAY   = 4'd11;
+
+  // What the encoder sends while the line is trained, the first bit highest.
+  localparam logic [60:0] TEST_PATTERN =
+    {50'b0100110011_0010000001_0001010111_0111111011_0011001101, 1'b0, 10'b0010011001};
+
+  // Where the first bit of an answer is taken.
+  typedef enum logic [1:0] {
+    PUBLISHED  = 2'd0,       // by the number of ones in the slot with the first edge
+    FIRST_ZERO = 2'd1,
+    TRACKING   = 2'd2        // by the mean of all edges
+  } sample_e;
+
+  // What the window of a frame is for.
+  typedef enum logic [1:0] {
+    FOR_START = 2'd0,        // the answer is looked for
+    FOR_MATCH = 2'd1,        // LEARN, CHECK: it has to be the test pattern
+    FOR_WORDS = 2'd2         // it carries data
+  } purpose_e;
+
+  // The samples of a window, as they come.
+  typedef struct packed {
+    logic       valid;       // this clock has one
+    logic [9:0] number;      // of the sample
+    logic [8:0] levels;      // the newest sample is bit 0
+  } stream_t;
 
   // What a frame is. Constant from its first bit to its last one.
   typedef struct packed {
