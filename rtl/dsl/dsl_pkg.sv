@@ -22,7 +22,7 @@ package dsl_pkg;
 
   // What the encoder sends while the line is trained, the first bit highest.
   localparam logic [60:0] TEST_PATTERN =
-    {50'b0100110011_0010000001_0001010111_0111111011_0011001101, 1'b0, 10'b0010011001};
+    61'b0100110011_0010000001_0001010111_0111111011_0011001101_0_0010011001;
 
   // Where the first bit of an answer is taken.
   typedef enum logic [1:0] {

@@ -51,6 +51,9 @@ INSTEAD = {
     "pru_frame": "through pru_core",
     "pru_memory": "through pru_core",
     "pru_pace": "through pru_core",
+    "dsl_learn": "through dsl_receiver",
+    "dsl_rx": "through dsl_receiver",
+    "dsl_sample": "through dsl_receiver",
     "pru_regs": "through pru_core",
     "pru_timebase": "through pru_frame",
 }

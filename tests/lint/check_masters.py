@@ -29,7 +29,8 @@ import sv_widths  # noqa: E402
 ITEMS = "tools/signoff/items.toml"
 SIMULATOR, COMMANDS = "sim/masters/masters.cpp", "tools/mb4sim/masters/support.cpp"
 # (master, what it lacks): why. A row that is not needed is a finding.
-WAIVED: dict[tuple[str, str], str] = {}
+WAIVED: dict[tuple[str, str], str] = {
+    ("dsl", what): "its parts stand alone, without a bus" for what in ("block", "netlist", "core", "measured", "release")}
 
 
 def own_modules(master):

@@ -192,8 +192,10 @@ def decision_findings(files):
 
 
 def name_of_master():
-    """A pattern for the names of the masters, whole ones: a kind of line has the first word of its master's (sim/lines/dsl/)."""
-    names = [name.replace("-", "_") for name in project.MASTERS if name != "mb4"]
+    """A pattern for the names of the masters, whole ones: a kind of line has the first word of its master's (sim/lines/dsl/).
+    A master with the name of a kind of line is left out."""
+    names = [name.replace("-", "_") for name in project.MASTERS
+             if name != "mb4" and not (project.ROOT / "sim" / "lines" / name).is_dir()]
     words = "|".join(form for name in names for form in (
         name, name.upper(), name.replace("_", "-"), "".join(part.capitalize() for part in name.split("_"))))
     return re.compile(rf"(?<![A-Za-z])(?:{words})(?![a-z])|_(?:{'|'.join(names)})(?![a-z])")
