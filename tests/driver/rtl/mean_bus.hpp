@@ -9,6 +9,7 @@
 
 #include <ucontext.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <exception>
@@ -183,6 +184,8 @@ class CallStack {
     function_ = [](void* object) { (*static_cast<std::remove_reference_t<Call>*>(object))(); };
     object_ = &call;
     running_ = this;
+    // What a call finds in memory that it has not written is the same in each run of a test.
+    std::fill(memory_.end() - kFilled, memory_.end(), char{0x5A});
     getcontext(&inner_);
     inner_.uc_stack.ss_sp = memory_.data();
     inner_.uc_stack.ss_size = memory_.size();
@@ -199,6 +202,7 @@ class CallStack {
 
  private:
   static constexpr std::size_t kBytes = std::size_t{1} << 20U;
+  static constexpr std::size_t kFilled = std::size_t{1} << 14U;  // deeper than a call goes
 
   static void enter() {
     try {

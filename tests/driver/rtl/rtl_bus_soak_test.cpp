@@ -124,6 +124,7 @@ class SoakRig : public Rig {
     move_plug(sim::ClockedLine::kPlug);
     simulator.advance(200 * sim::kPsPerUs);
     check();
+    give_up();
     restart();
     good_ = 0;
     no_word_ = false;
