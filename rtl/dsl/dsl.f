@@ -12,3 +12,4 @@ dsl_sample.sv
 dsl_learn.sv
 dsl_rx.sv
 dsl_receiver.sv
+dsl_quality.sv

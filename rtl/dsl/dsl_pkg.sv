@@ -38,6 +38,26 @@ package dsl_pkg;
     FOR_WORDS = 2'd2         // it carries data
   } purpose_e;
 
+  // Whose steps the quality monitor has.
+  typedef enum logic [1:0] {
+    DOCUMENT = 2'd0,
+    SICK     = 2'd1,
+    FIRMWARE = 2'd2
+  } rules_e;
+
+  // What moves the quality.
+  typedef enum logic [3:0] {
+    GOOD          = 4'd0,    // VSYNC where it must be, a right CRC of safe channel 1
+    VSYNC_EARLY   = 4'd1,
+    VSYNC_MISSING = 4'd2,
+    RSSI_LOW      = 4'd3,
+    CODE_ERROR    = 4'd4,    // of S_PAR or the pipeline
+    ACCELERATION  = 4'd5,    // an error of its code
+    SPECIAL       = 4'd6,    // a special character that must not be there
+    SAFE1_ERROR   = 4'd7,
+    SAFE2_ERROR   = 4'd8
+  } event_e;
+
   // The samples of a window, as they come.
   typedef struct packed {
     logic       valid;       // this clock has one
