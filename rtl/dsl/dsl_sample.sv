@@ -36,14 +36,12 @@ module dsl_sample (
   output logic             done_o
 );
 
-  localparam logic [9:0]  RANGE     = 10'd485;   // samples from the place to the end
-  localparam logic [9:0]  NEAR_END  = 10'd481;   // the place moves by less than four samples
-  localparam logic [9:0]  BEHIND    = 10'd489;
-  localparam logic [6:0]  TOO_LATE  = 7'd112;    // no answer fits here, nor eight samples earlier
+  // Samples from the one behind the place on.
+  localparam logic [9:0]  RANGE     = 10'd484; // ... to the end
+  localparam logic [6:0]  NEAR_END  = 7'd60;   // eighths: the place moves by less than half of one
+  localparam logic [6:0]  TOO_LATE  = 7'h70;   // no answer fits here, nor eight samples earlier
   localparam logic [6:0]  FIRST_FIT = 7'd4;
   localparam logic [6:0]  LAST_FIT  = 7'd91;
-  localparam logic [12:0] LOWEST    = {1'b0, FIRST_FIT, 5'd0};
-  localparam logic [12:0] HIGHEST   = {1'b0, LAST_FIT, 5'd31};
   localparam logic [6:0]  FEWEST    = 7'd8;
   localparam logic [3:0]  SUM_LAST  = 4'd8;
   localparam logic [3:0]  DIV_LAST  = 4'd7;
@@ -71,7 +69,8 @@ module dsl_sample (
 
   // Edges.
   logic        zero_now;             // the first 0 of the first window
-  logic [9:0]  away;                 // of this sample from the place
+  logic        late;                 // ... too late
+  logic [9:0]  away;                 // of this sample from the one behind the place
   logic        near_end;
   logic        ranged;
   logic        counts;
@@ -81,10 +80,11 @@ module dsl_sample (
 
   assign first_o  = start_i && !measured_q;
   assign zero_now = stream_i.valid && first_o && !found_q && !stream_i.levels[0];
-  assign away     = stream_i.number - {3'd0, place_q[11:5]};
-  assign near_end = first_o && found_q && away >= NEAR_END && away < BEHIND;
-  assign ranged   = first_o ? zero_now || (found_q && away < BEHIND)
-                            : away < RANGE || (away[9:2] == 8'hFF && away[1:0] != 2'd0);
+  assign late     = stream_i.number >= {3'd0, TOO_LATE};
+  assign away     = stream_i.number + {3'b111, ~place_q[11:5]};
+  assign near_end = first_o && found_q && away[9:3] == NEAR_END;
+  assign ranged   = first_o ? zero_now || (found_q && away[9:3] <= NEAR_END)
+                            : away < RANGE || away[9:2] == 8'hFF;
   assign counts   = stream_i.valid && ranged && stream_i.levels[0] != stream_i.levels[1]
                  && stream_i.number != 10'd0 && !count_q[6];
 
@@ -120,12 +120,18 @@ module dsl_sample (
   assign at_end  = rd_data[7] && behind < limit;
 
   // One adder for the sum and for the remainder.
+  logic [6:0] counted;
+  logic       low, high;             // the place is where no answer fits
   logic [8:0] sum;
   logic [5:0] reduced;
   logic       less, unused;
   logic [7:0] offset;                // of the lowest distance and the place's part
   logic [8:0] move;
   logic       rounds;                // towards 0
+  assign counted = count_q + (state_q == COUNT ? 7'd0 : rd_data[6:0])
+                 + {6'd0, state_q == COUNT ? counts : at_end};
+  assign low     = place_q[12] || place_q[11:5] < FIRST_FIT;
+  assign high    = place_q[11:5] > LAST_FIT;
   assign sum     = {rest_q, quot_q[7:5]} + {2'd0, count_q};
   assign {less, unused, reduced} = {1'b0, rest_q, quot_q[7]} - {1'b0, count_q};
   assign offset  = {!part, part, part, place_q[4:0]};
@@ -146,24 +152,21 @@ module dsl_sample (
         // The window runs, or the memory is cleared.
         step_d  = 4'd0;
         again_d = 1'b0;
-        count_d = stream_i.valid ? count_q + 7'(counts) : 7'd0;
-        rest_d  = 6'd0;
-        quot_d  = 9'd0;
+        count_d = stream_i.valid ? counted : 7'd0;
         if (zero_now) begin
           found_d = 1'b1;
-          place_d = {1'b0, stream_i.number < {3'd0, TOO_LATE} ? stream_i.number[6:0] : TOO_LATE,
-                     5'd0};
+          place_d = {1'b0, stream_i.number[6:0] | (TOO_LATE & {7{late}}), 5'd0};
         end
-        if (stream_i.valid && stream_i.number == dsl_pkg::LAST_SAMPLE) begin
-          state_d = SUM;
-          count_d = 7'd0;
-        end
+        if (stream_i.valid && stream_i.number == dsl_pkg::LAST_SAMPLE) state_d = SUM;
       end
       SUM: begin
         // Each count is added to the count of all, and this one to the sum.
-        if (step_q != 4'd0) begin
-          count_d             = count_q + rd_data[6:0] + 7'(at_end);
-          {rest_d, quot_d[7:5]} = sum;
+        count_d               = counted;
+        {rest_d, quot_d[7:5]} = sum;
+        if (step_q == 4'd0) begin
+          count_d = 7'd0;
+          rest_d  = 6'd0;
+          quot_d  = 9'd0;
         end
         if (step_q == SUM_LAST) begin
           state_d = DIVIDE;
@@ -194,14 +197,11 @@ module dsl_sample (
       end
       default: begin
         // The place is where it has to be, or is brought there.
-        if (place_q[12]) place_d = 13'd0;
-        if (bounded_i && (place_q[12] || place_q < LOWEST))   place_d = LOWEST;
-        if (bounded_i && !place_q[12] && place_q > HIGHEST) place_d = HIGHEST;
+        if (bounded_i && low)       place_d = {1'b0, FIRST_FIT, 5'd0};
+        else if (bounded_i && high) place_d = {1'b0, LAST_FIT, 5'd31};
+        else if (place_q[12])       place_d = 13'd0;
         again_d = first_o;
         step_d  = 4'd0;
-        count_d = 7'd0;
-        rest_d  = 6'd0;
-        quot_d  = 9'd0;
         state_d = first_o && !again_q ? SUM : COUNT;
       end
     endcase
@@ -239,7 +239,7 @@ module dsl_sample (
 
   assign found_o = found_q;
   assign place_o = place_q[11:0];
-  assign fits_o  = place_q[11:5] >= FIRST_FIT && place_q[11:5] <= LAST_FIT;
+  assign fits_o  = !low && !high;
   assign done_o  = state_q == LIMIT && state_d == COUNT;
 
 endmodule
