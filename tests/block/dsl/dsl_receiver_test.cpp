@@ -118,9 +118,10 @@ class DslReceiverBlock : public testing::TestWithParam<SampleRule> {
   Samples samples_of(Answer answer, int begin, unsigned jitter, int duty) {
     Samples samples(Receiver::kSamples);
     bool level = true;
+    const bool after = random.below(4) != 0;  // the level behind the answer
     std::size_t at = 0;
     for (unsigned i = 0; i <= kAnswerBits; ++i) {
-      const bool bit = i == kAnswerBits || (answer >> (kAnswerBits - 1 - i) & 1U) != 0;
+      const bool bit = i == kAnswerBits ? after : (answer >> (kAnswerBits - 1 - i) & 1U) != 0;
       int edge = begin + static_cast<int>(i) * 128;
       if (bit != level) {
         edge += static_cast<int>(random.below(jitter + 1)) - static_cast<int>(jitter / 2);
