@@ -8,10 +8,10 @@
 set host_period 5.0
 create_clock -name host -period $host_period [get_ports clk_i]
 
-# `sl_i`
+# `sl_i` of `biss_pru`
 set_false_path -from [get_ports {sl_i}] -to [get_clocks host]
 
-# `rst_ni`
+# `rst_ni` of `biss_pru`
 set_false_path -from [get_ports {rst_ni}] -to [get_clocks host]
 
 # `trigger_i`
