@@ -69,6 +69,10 @@ class OneClockMaster : public Interface {
     access_.done = true;
   }
 
+  void set_probes(Time now, std::uint64_t ma, std::uint64_t slo, std::uint64_t ready) override {
+    probes_ = {ma, slo, ready};
+    show(now);
+  }
   void stop_wave() override { wave_.reset(); }
   void finish_trace() override {
     if (wave_ != nullptr) wave_->flush();
@@ -128,6 +132,12 @@ class OneClockMaster : public Interface {
   void show(Time now) {
     if (wave_ != nullptr) wave_->show(now);
   }
+  // Those of the encoder of a master with one line.
+  std::vector<WaveSignal> encoder() const {
+    return {{"encoder_ma", &probes_.ma, sizeof probes_.ma, 0, 1},
+            {"encoder_slo", &probes_.slo, sizeof probes_.slo, 0, 1},
+            {"encoder_ready", &probes_.ready, sizeof probes_.ready, 0, 1}};
+  }
   // A waveform from now on, with the signals of the encoders between pins and registers.
   void begin_wave(const TraceFile& file, const char* title, std::vector<WaveSignal> signals,
                   const std::vector<WaveSignal>& encoders) {
@@ -141,11 +151,19 @@ class OneClockMaster : public Interface {
     wave_->show(file.from);
   }
 
+  // Levels at the encoders, bit n = line n, for the waveform.
+  struct Probes {
+    std::uint64_t ma = ~std::uint64_t{0};
+    std::uint64_t slo = ~std::uint64_t{0};
+    std::uint64_t ready = ~std::uint64_t{0};
+  };
+
   std::unique_ptr<VerilatedContext> context_;
   std::unique_ptr<Model> model_;
   AxiLiteManager<Model> manager_;
   ClockSource clock_;
   ModelRest<std::remove_pointer_t<decltype(Model::rootp)>, Counts> rest_;
+  Probes probes_;
 
  private:
   Self& self() { return static_cast<Self&>(*this); }

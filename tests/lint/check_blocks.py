@@ -42,6 +42,9 @@ INSTEAD = {
     "enc_sync_bit": "through enc_count_rx",
     "enc_time": "through mb4_page",
     "enc_wb": "proof wb",
+    "dsl_learn": "through dsl_receiver",
+    "dsl_rx": "through dsl_receiver",
+    "dsl_sample": "through dsl_receiver",
     "mb4_control": "test tests/chip/control/control_fault_test.cpp",  # time base between frames
     "mb4_engine": "test tests/chip/registers/register_test.cpp",   # resets
     "mb4_lines": "test tests/chip/registers/config_change_test.cpp",   # actuators from one flop
@@ -51,9 +54,6 @@ INSTEAD = {
     "pru_frame": "through pru_core",
     "pru_memory": "through pru_core",
     "pru_pace": "through pru_core",
-    "dsl_learn": "through dsl_receiver",
-    "dsl_rx": "through dsl_receiver",
-    "dsl_sample": "through dsl_receiver",
     "pru_regs": "through pru_core",
     "pru_timebase": "through pru_frame",
 }

@@ -90,20 +90,14 @@ class VerilatedAxi final : public OneClockMaster<VerilatedAxi<Model, kChannels, 
     std::vector<std::string> names;
     names.reserve(3 * std::size_t{kChannels});
     for (const auto& [name, levels] :
-         {std::pair{"_ma", &encoders_ma_}, std::pair{"_slo", &encoders_slo_},
-          std::pair{"_ready", &encoders_ready_}}) {
+         {std::pair{"_ma", &this->probes_.ma}, std::pair{"_slo", &this->probes_.slo},
+          std::pair{"_ready", &this->probes_.ready}}) {
       for (unsigned line = 0; line < kChannels; ++line) {
         names.push_back("encoder" + std::to_string(line) + name);
         encoders.push_back({names.back(), levels, sizeof *levels, line, 1});
       }
     }
     this->begin_wave(file, "mb4sim.biss_axi", Inside::signals(*model_), encoders);
-  }
-  void set_probes(Time now, std::uint64_t ma, std::uint64_t slo, std::uint64_t idle) override {
-    encoders_ma_ = ma;
-    encoders_slo_ = slo;
-    encoders_ready_ = idle;
-    this->show(now);
   }
 
  private:
@@ -175,10 +169,6 @@ class VerilatedAxi final : public OneClockMaster<VerilatedAxi<Model, kChannels, 
   bool power_on_reset_ = true;  // por_n is 0
   bool moved_ = false;          // inputs have changed since the last edge, beside SLO
   Outputs toggles_ = 0;         // kDone, kBeat
-  // Levels at the encoders, bit n = channel n, for the waveform.
-  std::uint64_t encoders_ma_ = ~std::uint64_t{0};
-  std::uint64_t encoders_slo_ = ~std::uint64_t{0};
-  std::uint64_t encoders_ready_ = ~std::uint64_t{0};
 };
 
 }  // namespace mb4::sim

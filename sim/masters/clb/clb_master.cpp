@@ -11,7 +11,7 @@
 #include "sim/hosts/host_keys.hpp"
 #include "sim/lines/clocked/clocked_lines.hpp"
 #include "sim/masters/clb/live_clb.hpp"
-#include "sim/model/wave_view.hpp"
+#include "sim/model/axi_lite_groups.hpp"
 
 namespace mb4::sim {
 namespace {
@@ -42,45 +42,23 @@ void read_clb_host(TomlReader& reader, const ChipConfig& chip, HostConfig& host)
 
 // Bus, line with its encoder, then the inside.
 std::vector<WaveGroup> clb_wave_groups(const HostConfig& /*host*/) {
-  return {{"clock and reset", true, {{"", "clk_i"}, {"", "rst_ni"}}, {}},
-          {"write",
-           false,
-           {{"", "s_axi_awvalid"},
-            {"", "s_axi_awready"},
-            {"", "s_axi_awaddr"},
-            {"", "s_axi_wvalid"},
-            {"", "s_axi_wready"},
-            {"", "s_axi_wdata"},
-            {"", "s_axi_wstrb"},
-            {"", "s_axi_bvalid"},
-            {"", "s_axi_bready"},
-            {"", "s_axi_bresp"}},
-           {}},
-          {"read",
-           false,
-           {{"", "s_axi_arvalid"},
-            {"", "s_axi_arready"},
-            {"", "s_axi_araddr"},
-            {"", "s_axi_rvalid"},
-            {"", "s_axi_rready"},
-            {"", "s_axi_rdata"},
-            {"", "s_axi_rresp"}},
-           {}},
-          {"line",
-           true,
-           {{"", "ma_o"},
-            {"", "encoder_ma"},
-            {"", "encoder_slo"},
-            {"", "sl_i"},
-            {"", "encoder_ready"},
-            {"", "spi_clk_o"},
-            {"", "txen_o"},
-            {"", "irq_o"}},
-           {"u_state."}},
-          {"receiver", true, {}, {"u_receive.", "u_fifo."}},
-          {"frame", false, {}, {"u_frame."}},
-          {"registers", false, {}, {"u_regs."}},
-          {"page", false, {}, {"u_page."}}};
+  std::vector<WaveGroup> groups = axi_lite_groups();
+  groups.insert(groups.end(), {{"line",
+                                true,
+                                {{"", "ma_o"},
+                                 {"", "encoder_ma"},
+                                 {"", "encoder_slo"},
+                                 {"", "sl_i"},
+                                 {"", "encoder_ready"},
+                                 {"", "spi_clk_o"},
+                                 {"", "txen_o"},
+                                 {"", "irq_o"}},
+                                {"u_state."}},
+                               {"receiver", true, {}, {"u_receive.", "u_fifo."}},
+                               {"frame", false, {}, {"u_frame."}},
+                               {"registers", false, {}, {"u_regs."}},
+                               {"page", false, {}, {"u_page."}}});
+  return groups;
 }
 
 }  // namespace

@@ -63,16 +63,7 @@ class VerilatedClb final
   bool sl() const override { return model_->sl_i != 0; }
 
   void start_wave(const TraceFile& file) override {
-    this->begin_wave(file, "mb4sim.biss_clb", Inside::signals(*model_),
-                     {{"encoder_ma", &encoder_ma_, sizeof encoder_ma_, 0, 1},
-                      {"encoder_slo", &encoder_slo_, sizeof encoder_slo_, 0, 1},
-                      {"encoder_ready", &encoder_ready_, sizeof encoder_ready_, 0, 1}});
-  }
-  void set_probes(Time now, std::uint64_t ma, std::uint64_t slo, std::uint64_t ready) override {
-    encoder_ma_ = ma;
-    encoder_slo_ = slo;
-    encoder_ready_ = ready;
-    this->show(now);
+    this->begin_wave(file, "mb4sim.biss_clb", Inside::signals(*model_), this->encoder());
   }
 
  private:
@@ -110,10 +101,6 @@ class VerilatedClb final
 
   Outputs answered_ = 0;
   unsigned guarded_ = 0;  // edges of MA since the last write
-  // Levels at the encoder, for the waveform.
-  std::uint64_t encoder_ma_ = 1;
-  std::uint64_t encoder_slo_ = 1;
-  std::uint64_t encoder_ready_ = 1;
 };
 
 }  // namespace mb4::sim

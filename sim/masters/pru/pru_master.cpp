@@ -11,7 +11,7 @@
 #include "sim/hosts/host_keys.hpp"
 #include "sim/lines/clocked/clocked_lines.hpp"
 #include "sim/masters/pru/live_pru.hpp"
-#include "sim/model/wave_view.hpp"
+#include "sim/model/axi_lite_groups.hpp"
 
 namespace mb4::sim {
 namespace {
@@ -58,45 +58,23 @@ void read_pru_host(TomlReader& reader, const ChipConfig& chip, HostConfig& host)
 
 // Bus, line with its encoder, then the inside.
 std::vector<WaveGroup> pru_wave_groups(const HostConfig& /*host*/) {
-  return {{"clock and reset", true, {{"", "clk_i"}, {"", "rst_ni"}}, {}},
-          {"write",
-           false,
-           {{"", "s_axi_awvalid"},
-            {"", "s_axi_awready"},
-            {"", "s_axi_awaddr"},
-            {"", "s_axi_wvalid"},
-            {"", "s_axi_wready"},
-            {"", "s_axi_wdata"},
-            {"", "s_axi_wstrb"},
-            {"", "s_axi_bvalid"},
-            {"", "s_axi_bready"},
-            {"", "s_axi_bresp"}},
-           {}},
-          {"read",
-           false,
-           {{"", "s_axi_arvalid"},
-            {"", "s_axi_arready"},
-            {"", "s_axi_araddr"},
-            {"", "s_axi_rvalid"},
-            {"", "s_axi_rready"},
-            {"", "s_axi_rdata"},
-            {"", "s_axi_rresp"}},
-           {}},
-          {"line",
-           true,
-           {{"", "trigger_i"},
-            {"", "ma_o"},
-            {"", "encoder_ma"},
-            {"", "encoder_slo"},
-            {"", "sl_i"},
-            {"", "encoder_ready"},
-            {"", "irq_o"}},
-           {}},
-          {"pace", true, {}, {"u_pace."}},
-          {"frame", true, {}, {"u_frame."}},
-          {"control frame", false, {}, {"u_control."}},
-          {"memory", false, {}, {"u_memory."}},
-          {"registers", false, {}, {"u_regs."}}};
+  std::vector<WaveGroup> groups = axi_lite_groups();
+  groups.insert(groups.end(), {{"line",
+                                true,
+                                {{"", "trigger_i"},
+                                 {"", "ma_o"},
+                                 {"", "encoder_ma"},
+                                 {"", "encoder_slo"},
+                                 {"", "sl_i"},
+                                 {"", "encoder_ready"},
+                                 {"", "irq_o"}},
+                                {}},
+                               {"pace", true, {}, {"u_pace."}},
+                               {"frame", true, {}, {"u_frame."}},
+                               {"control frame", false, {}, {"u_control."}},
+                               {"memory", false, {}, {"u_memory."}},
+                               {"registers", false, {}, {"u_regs."}}});
+  return groups;
 }
 
 }  // namespace

@@ -67,16 +67,7 @@ class VerilatedPru final : public OneClockMaster<VerilatedPru<Model, Steps, Insi
   bool sl() const override { return model_->sl_i != 0; }
 
   void start_wave(const TraceFile& file) override {
-    this->begin_wave(file, "mb4sim.pru_core", Inside::signals(*model_),
-                     {{"encoder_ma", &encoder_ma_, sizeof encoder_ma_, 0, 1},
-                      {"encoder_slo", &encoder_slo_, sizeof encoder_slo_, 0, 1},
-                      {"encoder_ready", &encoder_ready_, sizeof encoder_ready_, 0, 1}});
-  }
-  void set_probes(Time now, std::uint64_t ma, std::uint64_t slo, std::uint64_t ready) override {
-    encoder_ma_ = ma;
-    encoder_slo_ = slo;
-    encoder_ready_ = ready;
-    this->show(now);
+    this->begin_wave(file, "mb4sim.pru_core", Inside::signals(*model_), this->encoder());
   }
 
  private:
@@ -100,10 +91,6 @@ class VerilatedPru final : public OneClockMaster<VerilatedPru<Model, Steps, Insi
   bool moved_ = false;  // inputs have changed since the last edge, beside SL
   unsigned half_mhz_;   // clocks of half a period of MA at 1 MHz
   Outputs answered_ = 0;
-  // Levels at the encoder, for the waveform.
-  std::uint64_t encoder_ma_ = 1;
-  std::uint64_t encoder_slo_ = 1;
-  std::uint64_t encoder_ready_ = 1;
 };
 
 // MA frequency of the frame that runs, by pru_pkg::mhz_e.

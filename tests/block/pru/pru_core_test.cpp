@@ -8,11 +8,11 @@
 
 #include <cstdint>
 #include <cstdio>
-#include <cstdlib>
 #include <string>
 #include <vector>
 
 #include "tests/block/pru/pru_bench.hpp"
+#include "tests/support/environment.hpp"
 
 namespace {
 
@@ -25,8 +25,7 @@ using pru_judge::Time;
 namespace reg = biss_pru::regs;
 
 unsigned frames_of(unsigned usual) {
-  const char* text = std::getenv("MB4_PRU_FRAMES");
-  return text != nullptr ? static_cast<unsigned>(std::atoi(text)) : usual;
+  return static_cast<unsigned>(mb4test::number("MB4_PRU_FRAMES", usual));
 }
 
 JudgeSetup setup_of(std::uint32_t hz, unsigned quirks) {

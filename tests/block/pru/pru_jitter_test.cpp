@@ -5,12 +5,12 @@
 // delays up to 12 periods. The words that come are compared with those that were sent.
 // MB4_PRU_JITTER_FRAMES: frames of a row.
 #include <cstdio>
-#include <cstdlib>
 #include <ostream>
 #include <string>
 
 #include "tests/block/pru/pru_frames.hpp"
 #include "tests/support/dice.hpp"
+#include "tests/support/environment.hpp"
 
 namespace mb4test {
 namespace {
@@ -29,8 +29,7 @@ struct Row {
 };
 
 unsigned frames_of(unsigned usual) {
-  const char* text = std::getenv("MB4_PRU_JITTER_FRAMES");
-  return text != nullptr ? static_cast<unsigned>(std::atoi(text)) : usual;
+  return static_cast<unsigned>(mb4test::number("MB4_PRU_JITTER_FRAMES", usual));
 }
 
 template <typename Bench>

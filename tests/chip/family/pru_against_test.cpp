@@ -4,6 +4,7 @@
 // The same encoder on the same cable, read by biss_pru and by the three other masters.
 #include <string>
 
+#include "sim/lines/crc.hpp"
 #include "tests/chip/family/readers.hpp"
 #include "tests/chip/pru/pru_sim.hpp"
 
@@ -18,8 +19,7 @@ Words through_pru(const Line& line) {
   Words words;
   while (true) {
     if ((frame.flags() & ~kPruAverage) != 0) break;
-    words[pru.simulator.slave(1)->frames()] =
-        frame.position << 2U | (frame.signals & 1U) << 1U | (frame.signals >> 1U & 1U);
+    words[pru.simulator.slave(1)->frames()] = frame.word();
     if (words.size() == kFrames) break;
     frame = pru.frame();
   }
@@ -68,11 +68,7 @@ class PruWay final : public Way {
 
  private:
   static std::uint32_t crc4(std::uint32_t value, unsigned bits) {
-    std::uint32_t rest = value << 4U;
-    for (unsigned place = bits + 3; place >= 4; --place) {
-      if ((rest >> place & 1U) != 0) rest ^= 0x13U << (place - 4);
-    }
-    return ~rest & 0xFU;
+    return sim::Crc{.polynomial = 0x13}.line_bits(value, bits);
   }
   static std::uint32_t header(std::uint8_t address) {
     const std::uint32_t bits = 1U << 10U | address;

@@ -4,19 +4,14 @@
 // A host that writes and reads anything at any time. Each access has its answer, no assertion of
 // the RTL fails (that would throw), and after a clean start the next frame is good.
 // MB4_PRU_ACCESSES: accesses.
-#include <cstdlib>
 #include <iterator>
 
 #include "sim/core/random.hpp"
 #include "tests/chip/pru/pru_sim.hpp"
+#include "tests/support/environment.hpp"
 
 namespace mb4test {
 namespace {
-
-std::uint64_t number(const char* name, std::uint64_t usual) {
-  const char* text = std::getenv(name);
-  return text != nullptr ? std::strtoull(text, nullptr, 0) : usual;
-}
 
 // A register of the map three times of four, else any word.
 std::uint32_t any_address(sim::Random& random) {

@@ -40,6 +40,10 @@ struct PruFrame {
   std::uint32_t irq = 0;    // IRQ_STATUS
   std::uint64_t sent = 0;   // by the encoder: its last word
 
+  // Position, nE, nW: as the encoder has sent them.
+  std::uint64_t word() const {
+    return position << 2U | prureg::NE::get(signals) << 1U | prureg::NW::get(signals);
+  }
   std::uint32_t flags() const { return status >> 16U & 0xFFU; }
   std::uint32_t crc_errors() const { return prureg::POS_CRC_ERRORS::get(status); }
   std::uint32_t raw() const { return prureg::RAW_DATA::get(received); }

@@ -26,15 +26,11 @@
 #include "sim/lines/line.hpp"
 #include "tests/driver/rtl/sweep_rig.hpp"
 #include "tests/support/bits.hpp"
+#include "tests/support/environment.hpp"
 
 namespace {
 
 using namespace mb4test;  // NOLINT: the rig
-
-std::uint64_t number(const char* name, std::uint64_t otherwise) {
-  const char* text = std::getenv(name);
-  return text != nullptr ? std::strtoull(text, nullptr, 0) : otherwise;
-}
 
 // The bits of SL at the rising edges of MA, by frame.
 class Recorder {

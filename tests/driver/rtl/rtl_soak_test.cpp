@@ -17,7 +17,6 @@
 #include <array>
 #include <cstdint>
 #include <cstdio>
-#include <cstdlib>
 #include <optional>
 #include <random>
 #include <string>
@@ -25,6 +24,7 @@
 
 #include "sim/lines/clocked/clocked_line.hpp"
 #include "tests/driver/rtl/rtl_calls.hpp"
+#include "tests/support/environment.hpp"
 
 namespace {
 
@@ -34,11 +34,6 @@ using mb4::Result;
 namespace sim = mb4::sim;
 
 constexpr std::uint8_t kWith = MB4_WITH_ALL | MB4_WITH_COUNTS;
-
-std::uint64_t number(const char* name, std::uint64_t otherwise) {
-  const char* text = std::getenv(name);
-  return text != nullptr ? std::strtoull(text, nullptr, 0) : otherwise;
-}
 
 class Drive {
  public:

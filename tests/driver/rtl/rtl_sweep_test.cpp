@@ -24,15 +24,11 @@
 #include <vector>
 
 #include "tests/driver/rtl/sweep_rig.hpp"
+#include "tests/support/environment.hpp"
 
 namespace {
 
 using namespace mb4test;  // NOLINT: the rig
-
-std::uint64_t number(const char* name, std::uint64_t otherwise) {
-  const char* text = std::getenv(name);
-  return text != nullptr ? std::strtoull(text, nullptr, 0) : otherwise;
-}
 
 struct Case {
   Setup setup;

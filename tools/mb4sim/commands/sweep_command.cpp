@@ -85,10 +85,10 @@ SweepPoint measure(const sim::Scenario& scenario, std::uint64_t frames, std::uin
     point.words = point.flagged = frames * session->slaves().size();
     return point;
   }
-  const std::uint64_t first = support.sweep.unmeasured + 1;
-  for (std::uint64_t number = 1; number < first + frames; ++number) {
-    const SessionFrame frame = session->read(number);
-    if (number < first) continue;
+  std::uint64_t number = 0;
+  while (number < support.sweep.unmeasured) session->read(++number);
+  while (number < support.sweep.unmeasured + frames) {
+    const SessionFrame frame = session->read(++number);
     for (std::size_t i = 0; i < frame.results.size(); ++i) {
       ++point.words;
       if (frame.kind(i) == SlaveOutcome::Kind::kFlagged) ++point.flagged;
