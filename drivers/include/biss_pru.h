@@ -531,8 +531,8 @@ BISS_PRU_RESULT biss_pru_begin_write(biss_pru_master *pru, uint8_t id, uint8_t a
 static inline biss_pru_result biss_pru_answer(biss_pru_master *pru, uint8_t *data) {
   const uint32_t result = biss_pru_get(pru, PRU_ADDR_CTRL_RESULT) & PRU_CTRL_RESULT_MASK;
   const uint32_t status = biss_pru_get(pru, PRU_ADDR_STATUS);
-  const uint32_t crc =
-      (biss_pru_get(pru, PRU_ADDR_RECEIVED) & PRU_CTRL_CRC_MASK) >> PRU_CTRL_CRC_SHIFT;
+  const uint32_t received = biss_pru_get(pru, PRU_ADDR_RECEIVED);
+  const uint32_t crc = (uint32_t)((received & PRU_CTRL_CRC_MASK) >> PRU_CTRL_CRC_SHIFT);
   pru->access = BISS_PRU_IDLE;
   if (result == 0 && crc == 0) {
     return (status & PRU_NO_SLAVE_FLAG_MASK) != 0 ? BISS_PRU_NO_SLAVE : BISS_PRU_NO_ANSWER;

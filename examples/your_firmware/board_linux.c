@@ -16,7 +16,10 @@
 void board_transfer(const uint8_t *tx, uint8_t *rx, size_t size) {
   static int device = -1;
   const struct spi_ioc_transfer transfer = {
-      .tx_buf = (unsigned long)tx, .rx_buf = (unsigned long)rx, .len = size, .speed_hz = 5000000};
+      .tx_buf = (unsigned long)tx,
+      .rx_buf = (unsigned long)rx,
+      .len = (unsigned)size,
+      .speed_hz = 5000000};
   if (device < 0) device = open("/dev/spidev0.0", O_RDWR);
   if (device < 0 || ioctl(device, SPI_IOC_MESSAGE(1), &transfer) < 0) {
     perror("/dev/spidev0.0");

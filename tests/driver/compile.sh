@@ -35,7 +35,11 @@ case $mode in
     # Twice: the include guard has to hold as well.
     printf '#include "%s"\n#include "%s"\n' "$file" "$file" > "$work/unit.cpp"
     case $file in *.c) cp "$file" "$work/unit.cpp" ;; esac
-    "$compiler" $freestanding $strict "$@" -c "$work/unit.cpp" -o "$work/unit.o"
+    "$compiler" $freestanding $strict "$@" -c "$work/unit.cpp" -o "$work/unit.o" || exit 1
+    # GCC folds masks less with sanitizers, and then warns where it did not.
+    case $compiler in
+      gcc | g++) "$compiler" $freestanding $strict -fsanitize=undefined "$@" -fsyntax-only "$work/unit.cpp" ;;
+    esac
     ;;
   as_cpp)
     "$compiler" -x c++ -std=c++17 -ffreestanding $strict "$@" -c "$file" -o "$work/unit.o"
