@@ -92,4 +92,50 @@ package dsl_pkg;
     logic       only_strict; // an error that the published check does not see
   } word_t;
 
+  // Where the link is.
+  typedef enum logic [3:0] {
+    GAP_STATE   = 4'd0,      // no frame
+    RESET_STATE = 4'd1,
+    SYNC_STATE  = 4'd2,
+    START_STATE = 4'd3,
+    LEARN_STATE = 4'd4,
+    CHECK_STATE = 4'd5,
+    ID_STATE    = 4'd6,
+    VSYNC_STATE = 4'd7,      // waits for VSYNC
+    RUN_STATE   = 4'd8
+  } state_e;
+
+  // Why the link began again.
+  typedef enum logic [2:0] {
+    NO_RESTART   = 3'd0,
+    NOT_FOUND    = 3'd1,     // START: no answer, or not where one fits
+    WRONG_LEARN  = 3'd2,
+    WRONG_CHECK  = 3'd3,
+    BAD_IDENTITY = 3'd4,
+    NO_VSYNC     = 3'd5,
+    LOW_QUALITY  = 3'd6,
+    TOO_MANY_LOST = 3'd7     // accelerations, one after another
+  } reason_e;
+
+  // The answer of a frame, word after word, and its end. All of it comes from flops.
+  typedef struct packed {
+    logic       linked;      // from the encoder's identity to the end of the link
+    logic       begins;      // one clock, the first one with linked
+    logic       running;     // VSYNC has been: the frame is one of a vertical frame
+    logic [2:0] place;       // ... its number there, 0 to 7
+    logic       valid;       // one clock: there is a word
+    logic [2:0] number;      // vertical, S_PAR, pipeline, two of the acceleration, secondary
+    word_t      word;        // up to the next one
+    logic       ends;        // one clock, ten clocks or more behind the last word
+  } answer_t;
+
+  // What a running frame has told about safe channels and position. Right from the clock behind
+  // `ends` on, up to the first word of the next frame.
+  typedef struct packed {
+    logic safe1_error;       // its code, once in a vertical frame, or its CRC
+    logic safe1_good;        // a whole vertical frame without an error of code or CRC
+    logic safe2_error;
+    logic missing;           // too many accelerations, one after another
+  } verdict_t;
+
 endpackage
