@@ -13,3 +13,6 @@ dsl_learn.sv
 dsl_rx.sv
 dsl_receiver.sv
 dsl_quality.sv
+dsl_judge.sv
+dsl_link.sv
+dsl_line.sv

@@ -92,6 +92,20 @@ package dsl_pkg;
     logic       only_strict; // an error that the published check does not see
   } word_t;
 
+  // What a user chooses. docs/dsl.md, "Quirks".
+  typedef struct packed {
+    logic       sdk_map;
+    logic       recover;
+    logic       strict_code;
+    logic [1:0] sample;          // sample_e
+    logic [1:0] rules;           // rules_e
+    logic       rssi_table;
+    logic [3:0] rx_start;
+    logic [4:0] start_blocks;
+    logic [7:0] vsync_limit;
+    logic [1:0] stale_limit;
+  } quirks_t;
+
   // Where the link is.
   typedef enum logic [3:0] {
     GAP_STATE   = 4'd0,      // no frame
@@ -137,5 +151,19 @@ package dsl_pkg;
     logic safe2_error;
     logic missing;           // too many accelerations, one after another
   } verdict_t;
+
+  // What a user can see of the line.
+  typedef struct packed {
+    logic [3:0]  state;      // state_e
+    logic [2:0]  reason;     // reason_e
+    logic [15:0] resets;     // since the reset; it wraps
+    logic [15:0] illegal;    // words that only the strict check refused; it wraps
+    logic [19:0] identity;   // of the encoder
+    logic [3:0]  quality;
+    logic        low;        // ... is below 14
+    logic [3:0]  rssi;
+    logic [7:0]  edges;
+    logic [11:0] place;      // sample of the first bit, five bits behind the point
+  } line_status_t;
 
 endpackage

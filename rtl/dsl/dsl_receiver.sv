@@ -4,8 +4,8 @@
 // A window from its samples to its words: where the answer is, and what it says.
 //
 // Clock domain: core. done_o comes 11 to 44 clocks behind the last sample, and with it good_o: in
-// START, LEARN and CHECK frames the window is as it has to be. From the next clock on place_o and
-// delay_o are those of the next window, and edges_o and rssi_o those of this one.
+// START, LEARN and CHECK frames the window is as it has to be. From the next clock on place_o is
+// that of the next window, and edges_o and rssi_o are those of this one.
 //
 // forget_i: the line is trained anew. purpose_i says what the window is for, from its first sample
 // to done_o.
@@ -25,8 +25,8 @@ module dsl_receiver (
   output logic [9:0]        line_o,
   output logic              done_o,
   output logic              good_o,
-  output logic [3:0]        delay_o,
-  output logic [11:0]       place_o,      // sample of the first bit, five bits behind the point
+  output logic [11:0]       place_o,      // sample of the first bit, five bits behind the point;
+                                          // bits 11 to 8 are the whole bits that it comes late
   output logic [7:0]        edges_o,
   output logic [3:0]        rssi_o
 );
@@ -105,7 +105,6 @@ module dsl_receiver (
     else if (start) good_o = learned;
   end
 
-  assign delay_o  = delay;
   assign place_o  = {delay, eighth, tracks ? place[4:0] : 5'd0};
 
 endmodule

@@ -10,8 +10,9 @@
 // plan_i is the one of this frame.
 //
 // gap_i: what follows is no frame: the driver is off for 16 bits, 16 zeros follow, and the
-// disparity begins with 0. It counts at the end of the trailer, where it drops the stuffing, and at
-// the end of each block of stuffing. A gap is what a reset begins with.
+// disparity begins with 0. It counts at the end of the trailer, where it drops the stuffing, at the
+// end of each block of stuffing and at the end of a gap. While the driver is off in a gap, gap_i
+// keeps it off. A gap is what a reset begins with.
 // EXTRA: extra ones, then, if rest is not 0, a bit that is high for rest eighths.
 // Misuse: a plan that changes within its frame mixes two frames.
 // Source: docs/dsl.md, "The protocol".
@@ -63,6 +64,7 @@ module dsl_tx (
   logic [9:0] word;
   logic       uneven;
   logic       ends;                       // the field does
+  logic       off;                        // the driver is, in a gap
   logic       frame_ends;
 
   dsl_code_tx u_code (
@@ -90,6 +92,7 @@ module dsl_tx (
   end
 
   assign ends       = slot_i && left_q == 7'd0;
+  assign off        = field_q == GAP_FIELD && left_q[4];
   assign frame_ends = (field_q == TRAILER_FIELD || field_q == BLOCK_FIELD) && blocks_q == 5'd0;
 
   always_comb begin
@@ -101,7 +104,7 @@ module dsl_tx (
     fresh_d     = fresh_q;
     if (slot_i) begin
       fresh_d = 1'b0;
-      left_d  = left_q - 7'd1;
+      left_d  = left_q - 7'(!(off && gap_i));
       bits_d  = {bits_q[8:0], 1'b0};
     end
     if (ends) begin
@@ -148,7 +151,7 @@ module dsl_tx (
         end
         default: begin
           // The frame is over, or a block of stuffing follows.
-          if (gap_i && field_q != GAP_FIELD) begin
+          if (gap_i) begin
             field_d     = GAP_FIELD;
             left_d      = GAP_LAST;
             disparity_d = 8'd0;
@@ -189,7 +192,7 @@ module dsl_tx (
   logic       level;
   logic [7:0] part;        // of the bit with eighths
 
-  assign silent = (field_q == WINDOW_FIELD && plan_i.answer) || (field_q == GAP_FIELD && left_q[4]);
+  assign silent = (field_q == WINDOW_FIELD && plan_i.answer) || off;
   assign part   = ~(8'hFF >> plan_i.rest);
   always_comb begin
     level = bits_q[9];

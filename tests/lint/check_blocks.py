@@ -42,7 +42,9 @@ INSTEAD = {
     "enc_sync_bit": "through enc_count_rx",
     "enc_time": "through mb4_page",
     "enc_wb": "proof wb",
+    "dsl_judge": "through dsl_line",
     "dsl_learn": "through dsl_receiver",
+    "dsl_link": "through dsl_line",
     "dsl_rx": "through dsl_receiver",
     "dsl_sample": "through dsl_receiver",
     "mb4_control": "test tests/chip/control/control_fault_test.cpp",  # time base between frames

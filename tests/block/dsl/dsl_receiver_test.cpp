@@ -12,6 +12,7 @@
 
 #include "Vdsl_receiver.h"
 #include "sim/masters/dsl_model/receiver.hpp"
+#include "tests/block/dsl/dsl_waveform.hpp"
 #include "tests/support/model_context.hpp"
 
 namespace {
@@ -21,7 +22,7 @@ using namespace mb4::sim::dsl_model;
 enum Purpose : std::uint8_t { kForStart, kForMatch, kForWords };
 
 constexpr unsigned kLatest = 48;  // clocks from the last sample to done_o
-using Samples = std::vector<bool>;
+using Samples = mb4test::DslSamples;
 
 // Where each word of an answer ends.
 constexpr unsigned kLowest[] = {51, 41, 31, 21, 11, 0};
@@ -97,7 +98,7 @@ class DslReceiverBlock : public testing::TestWithParam<SampleRule> {
       EXPECT_EQ(good, expected);
     }
     if (!expected) return false;
-    EXPECT_EQ(m.delay_o, model.delay());
+    EXPECT_EQ(m.place_o >> 8U, model.delay());
     EXPECT_EQ(m.place_o >> 5U, model.delay() * 8 + model.eighth());
     if (GetParam() == SampleRule::kTracking) {
       EXPECT_EQ(m.place_o - 4 * 32, model.place());
@@ -113,26 +114,8 @@ class DslReceiverBlock : public testing::TestWithParam<SampleRule> {
     return true;
   }
 
-  // The bits of an answer, its first edge at sample `begin` plus `part` of 16: each edge moves by
-  // up to half of `jitter` sixteenths of a sample, falling ones later by `duty`.
   Samples samples_of(Answer answer, int begin, unsigned jitter, int duty) {
-    Samples samples(Receiver::kSamples);
-    bool level = true;
-    const bool after = random.below(4) != 0;  // the level behind the answer
-    std::size_t at = 0;
-    for (unsigned i = 0; i <= kAnswerBits; ++i) {
-      const bool bit = i == kAnswerBits ? after : (answer >> (kAnswerBits - 1 - i) & 1U) != 0;
-      int edge = begin + static_cast<int>(i) * 128;
-      if (bit != level) {
-        edge += static_cast<int>(random.below(jitter + 1)) - static_cast<int>(jitter / 2);
-        edge += bit ? -duty : duty;
-      }
-      const auto end = static_cast<std::size_t>(std::clamp((edge + 15) / 16, 0, 576));
-      for (; at < end; ++at) samples[at] = level;
-      level = bit;
-    }
-    for (; at < samples.size(); ++at) samples[at] = level;
-    return samples;
+    return mb4test::samples_of(answer, {.begin = begin, .jitter = jitter, .duty = duty}, random);
   }
   Answer any_answer() {
     Answer answer = 0;
