@@ -4,6 +4,7 @@
 // The DSL master, as far as it goes. Paths are relative to this folder; packages come first.
 -F ../common/common.f
 dsl_pkg.sv
+dsl_program_pkg.sv
 dsl_code_tx.sv
 dsl_code_rx.sv
 dsl_phy.sv
@@ -16,3 +17,6 @@ dsl_quality.sv
 dsl_judge.sv
 dsl_link.sv
 dsl_line.sv
+dsl_vertical.sv
+dsl_program.sv
+dsl_position.sv

@@ -166,4 +166,14 @@ package dsl_pkg;
     logic [11:0] place;      // sample of the first bit, five bits behind the point
   } line_status_t;
 
+  // What dsl_vertical tells dsl_position and the registers.
+  typedef struct packed {
+    logic       acceleration_good;  // of this frame
+    logic [4:0] missing;            // accelerations, one after another
+    logic       safe1_valid;        // the last vertical frame brought a good safe position
+    logic       safe1_error;        // its code or its CRC was wrong
+    logic       safe2_valid;
+    logic       safe2_error;
+  } told_t;
+
 endpackage

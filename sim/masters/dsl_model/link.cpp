@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/masters/dsl_model/link.hpp"
 
-#include <span>
-
 namespace mb4::sim::dsl_model {
 namespace {
 
@@ -12,22 +10,11 @@ constexpr unsigned kSyncFrames = 16;
 constexpr unsigned kStartFrames = 9;
 constexpr unsigned kLearnFrames = 9;
 constexpr unsigned kCheckFrames = 16;
-constexpr unsigned kVertical = 8;
+constexpr unsigned kVertical = SafeChannels::kFrames;
 constexpr unsigned kLowRssi = 2;
 constexpr std::uint8_t kVsync = 0x80;  // in S_PAR
-constexpr std::uint8_t kTest2 = 0x40;  // in STATUS2
 constexpr unsigned kMaxPositionBits = 40;
 constexpr unsigned kMaxAccelerationBits = 11;
-
-std::uint64_t position_in(const std::array<std::uint8_t, 8>& bytes) {
-  std::uint64_t position = 0;
-  for (unsigned i = 1; i <= 5; ++i) position = position << 8U | bytes[i];
-  return position;
-}
-
-std::uint16_t crc_in(const std::array<std::uint8_t, 8>& bytes) {
-  return static_cast<std::uint16_t>(bytes[6] << 8U | bytes[7]);
-}
 
 // A special character where only `allowed` may stand. K28.x is accepted as a byte.
 bool unexpected(const Word& word, std::uint8_t allowed) {
@@ -82,7 +69,8 @@ Link::Link(const LinkRules& rules)
     : rules_(rules),
       receiver_(rules.sample, rules.rssi_table),
       motion_({.recover = rules.recover, .stale_limit = rules.stale_limit}),
-      quality_(rules.quality) {
+      quality_(rules.quality),
+      safe_(rules.quality) {
   restarting_ = true;
 }
 
@@ -238,6 +226,7 @@ void Link::take_identity() {
   }
   frame_.linked = true;
   frame_.lost = true;
+  safe_.start();
   frame_.safe1 = frame_.safe2 = {};
   quality_.start();
   frame_.quality = quality_.value();
@@ -248,7 +237,7 @@ void Link::wait_for_vsync() {
   const Word& parameter = frame_.words.parameter;
   if (!parameter.error && (parameter.byte & kVsync) != 0) {
     place_ = 0;
-    bytes1_ = bytes2_ = {};
+    safe_.begin();
     enter(LinkState::kRun, 0);
     return;
   }
@@ -304,38 +293,12 @@ void Link::run() {
 
 // Both safe channels bring a byte with each frame.
 void Link::take_safe(QualityEvents& events) {
-  const auto take = [this](Bytes& channel, const Word& word) {
-    channel.bytes[place_] = word.byte;
-    const bool first_error = word.error && !channel.code_error;
-    channel.code_error |= word.error;
-    channel.marked |= word.special && !word.error && !word.is_k28();
-    return first_error;
-  };
-  events.safe1_error = take(bytes1_, frame_.words.vertical);
-  events.safe2_error = take(bytes2_, frame_.words.secondary);
-  const bool firmware = rules_.quality == QualityRules::kFirmware;
-  if (firmware && place_ == 0 && (bytes2_.bytes[0] & kTest2) != 0) events.safe2_error = true;
-  if (place_ + 1 != kVertical) return;
-
-  frame_.safe_new = true;
-  const auto judge_channel = [](const Bytes& channel, SafeChannel& safe) {
-    const std::span<const std::uint8_t> covered(channel.bytes.data(), 6);
-    const bool crc = crc16(covered) == crc_in(channel.bytes);
-    safe.error = channel.code_error || !crc;
-    safe.valid = !safe.error && !channel.marked;
-    if (!safe.valid) return crc;
-    safe.position = position_in(channel.bytes);
-    safe.crc = crc_in(channel.bytes);
-    safe.summary = channel.bytes[0];
-    return crc;
-  };
-  const bool crc1 = judge_channel(bytes1_, frame_.safe1);
-  const bool crc2 = judge_channel(bytes2_, frame_.safe2);
-  // A vertical frame counts once.
-  if (!bytes1_.code_error) (crc1 ? events.safe1_good : events.safe1_error) = true;
-  if (!bytes2_.code_error && !crc2 && !firmware) events.safe2_error = true;
+  const AnswerWords& words = frame_.words;
+  frame_.safe_new = safe_.frame(place_, words.vertical, words.secondary, events);
+  frame_.safe1 = safe_.safe1();
+  frame_.safe2 = safe_.safe2();
+  if (!frame_.safe_new) return;
   motion_.vertical_end(frame_.safe1.valid ? std::optional(frame_.safe1.position) : std::nullopt);
-  bytes1_ = bytes2_ = {};
   vertical_ = !vertical_;
 }
 

@@ -18,6 +18,7 @@
 #include "sim/masters/dsl_model/motion.hpp"
 #include "sim/masters/dsl_model/quality.hpp"
 #include "sim/masters/dsl_model/receiver.hpp"
+#include "sim/masters/dsl_model/safe_channels.hpp"
 
 namespace mb4::sim::dsl_model {
 
@@ -64,15 +65,6 @@ AnswerWords words_of(Answer answer, CodeCheck check);
 // The second difference of an answer; nothing if a word is wrong. The strict check refuses special
 // characters but K28.x, the published one looks at code errors and CRC5 alone.
 std::optional<int> acceleration_in(const AnswerWords& words, CodeCheck check);
-
-// A safe channel: what came with the last good vertical frame.
-struct SafeChannel {
-  std::uint64_t position = 0;  // 40 bits
-  std::uint16_t crc = 0;
-  std::uint8_t summary = 0;  // STATUS2 of the second channel
-  bool valid = false;        // the last vertical frame was good
-  bool error = false;        // its code or its CRC was wrong
-};
 
 // A frame with an answer.
 struct LinkFrame {
@@ -170,6 +162,7 @@ class Link {
   Receiver receiver_;
   Motion motion_;
   Quality quality_;
+  SafeChannels safe_;
   LinkListener* listener_ = nullptr;
 
   unsigned tick_ = 0;  // of the frame
@@ -194,14 +187,6 @@ class Link {
   unsigned place_ = 0;     // of the next running frame
   bool vertical_ = false;  // msync
   std::uint64_t running_ = 0;
-  // The bytes of the running vertical frame.
-  struct Bytes {
-    std::array<std::uint8_t, 8> bytes{};
-    bool code_error = false;
-    bool marked = false;  // the encoder reports a fault of its own, or another special character
-  };
-  Bytes bytes1_;
-  Bytes bytes2_;
   LinkFrame frame_;
 };
 

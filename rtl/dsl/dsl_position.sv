@@ -1,0 +1,299 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Position and speed: it adds up the accelerations, guesses the missing ones, and finds the
+// absolute position by safe position 1. The rows of dsl_program are run on an adder of eight bits
+// and a memory of 256 bytes.
+//
+// Clock domain: core. Work on a running frame begins with the second word of its acceleration and
+// waits for answer_i.ends. tell_o follows it by 60 to 550 clocks: the record of the frame is
+// complete. From then on lost_o is that of this frame; it is 1 without a link. A new link
+// (answer_i.begins) clears all but frames and time, in 900 clocks; so does the reset, with them.
+//
+// Record, a byte at a time: record_write_o writes record_data_o to record_address_o. Addresses:
+// 0 position (5 bytes, the lowest one first), 8 speed (5), 16 running frames (4), 20 status (4),
+// 24 time (8), 32 and 40 safe positions 1 and 2 (5), summary, CRC (2), 48 and 52 their ages in
+// frames. An age is all ones if none has come. Each tell_o has a whole record before it, so a
+// reader needs banks that change with it (dsl_record).
+// Status: byte 0 as STATUS, with the errors of the two safe channels in bits 6 and 7; byte 1
+// quality and delay; byte 2 the state of the link; byte 3 the reason.
+//
+// time_i: the byte of the frame's time; time_next_o asks for the next one, eight times a frame, the
+// lowest one first. The first one is taken 5 clocks or more behind the second word.
+// Misuse: a frame whose second word comes before tell_o of the frame before is left out. An
+// identity with more than 40 bits of position has a position without bits.
+// Source: docs/dsl.md, "Position".
+
+module dsl_position (
+  input  logic                  clk_i,
+  input  logic                  rst_ni,
+  input  dsl_pkg::quirks_t      quirks_i,
+  input  dsl_pkg::answer_t      answer_i,
+  input  dsl_pkg::told_t        told_i,
+  input  dsl_pkg::line_status_t status_i,
+  input  logic [7:0]            time_i,
+  output logic                  time_next_o,
+  output logic                  lost_o,            // POS
+  // record
+  output logic                  record_write_o,
+  output logic [5:0]            record_address_o,
+  output logic [7:0]            record_data_o,
+  output logic                  tell_o
+);
+
+  localparam logic [2:0] VERTICAL   = 3'd0;
+  localparam logic [2:0] HIGH_WORD  = 3'd3;
+  localparam logic [2:0] LOW_WORD   = 3'd4;
+  localparam logic [2:0] SECONDARY  = 3'd5;
+  localparam logic [2:0] LAST_PLACE = 3'd7;
+
+  // Rows.
+  logic                         ready_q;     // the first row has been read
+  logic                         run;         // the memory is free for it
+  logic [7:0]                   step_d, step_q;
+  logic [31:0]                  row;
+  dsl_program_pkg::sum_t        sum;
+  dsl_program_pkg::jump_t       jump;
+  dsl_program_pkg::conditions_t conditions;
+  logic [12:0]                  condition_bits;
+  logic                         is_sum, set, tell;
+  logic                         taken, next;
+
+  // A sum: operand, operand, result. The first operand of a byte is read with the result of the one
+  // before.
+  logic       second_q;       // the second operand is read, the first one is there
+  logic       result_q;       // there is a result
+  logic [2:0] index_q;        // of the operands
+  logic [2:0] to_d, to_q;     // of the result
+  logic [7:0] result_to;
+  logic       lowest_q;       // the result is the first one of the row
+  logic       last_q;         // ... the last one
+  logic       fill, fill_q;
+  logic [7:0] memory;
+  logic [7:0] in;
+  logic [7:0] first_d, first_q;
+  logic [7:0] second;
+  logic       carry_in, carry;
+  logic [7:0] total;
+  logic       write;
+  logic       zero_q, carry_q, negative_q;
+
+  // Answers.
+  logic       stores;         // a word goes into the memory
+  logic [4:0] word_to;
+  logic [2:0] word_index;
+  logic       frame_q, begun_q, vertical_q, ended_q;
+  logic [2:0] align_q;        // dsl_program_pkg::align_e
+  logic [1:0] stale_d, stale_q; // vertical frames without a good safe position 1
+  logic       stale;
+  logic [7:0] status0;
+  logic [9:0] identity;
+  logic [6:0] width;
+
+  assign run = ready_q && !stores;
+
+  // ---- Rows -------------------------------------------------------------------------------------
+
+  dsl_program u_program (
+    .clk_i,
+    .enable_i (!stores),
+    .step_i   (step_d),
+    .row_o    (row)
+  );
+
+  assign sum    = row;
+  assign jump   = row;
+  assign is_sum = sum.kind == dsl_program_pkg::SUM;
+  assign set    = sum.kind == dsl_program_pkg::SET;
+  assign tell   = sum.kind == dsl_program_pkg::TELL;
+
+  assign conditions.in_state = align_q == jump.state;
+  assign conditions.recover  = quirks_i.recover;
+  assign conditions.stale    = stale;
+  assign conditions.new2     = told_i.safe2_valid;
+  assign conditions.new1     = told_i.safe1_valid;
+  assign conditions.vertical = vertical_q;
+  assign conditions.good     = told_i.acceleration_good;
+  assign conditions.begun    = begun_q;
+  assign conditions.frame    = frame_q;
+  assign conditions.any      = 1'b1;
+  assign conditions.negative = negative_q;
+  assign conditions.carry    = carry_q;
+  assign conditions.zero     = zero_q;
+  assign condition_bits      = conditions;
+
+  assign taken = (jump.kind == dsl_program_pkg::JUMP || set)
+              && (condition_bits[jump.condition] ^ jump.inverted);
+  assign next  = !is_sum || (result_q && last_q);
+
+  always_comb begin
+    step_d = step_q;
+    if (run && next) step_d = taken ? jump.target : step_q + 8'd1;
+  end
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      ready_q <= 1'b0;
+      step_q  <= '0;
+    end else begin
+      ready_q <= 1'b1;
+      step_q  <= step_d;
+    end
+  end
+
+  // ---- Sums -------------------------------------------------------------------------------------
+
+  enc_ram #(.Width(8), .AddrW(8)) u_memory (
+    .wr_clk_i  (clk_i),
+    .wr_en_i   (stores || write),
+    .wr_addr_i (stores ? {word_to, word_index} : result_to),
+    .wr_data_i (stores ? answer_i.word.data : total),
+    .rd_clk_i  (clk_i),
+    .rd_en_i   (!stores),
+    .rd_addr_i ({second_q ? sum.second : sum.first, index_q[2] | sum.upper, index_q[1:0]}),
+    .rd_data_o (memory)
+  );
+
+  // Bits of the position less those of the acceleration, and bits of the acceleration less 8.
+  assign identity = status_i.identity[9:0];
+  assign width    = {1'b0, identity[9:4]} + {3'd0, identity[3:0]} + 7'd8;
+
+  assign status0 = {told_i.safe2_error, told_i.safe1_error,
+                    told_i.safe2_error || told_i.safe1_error,
+                    told_i.safe2_valid, told_i.safe1_valid,
+                    answer_i.running, answer_i.linked, lost_o};
+
+  always_comb begin
+    in = time_i;
+    if (sum.second[1:0] == dsl_program_pkg::IN_WIDTH) in = {1'b0, width};
+    if (sum.second[1:0] == dsl_program_pkg::IN_STATUS) begin
+      case (index_q[1:0])
+        2'd0:    in = status0;
+        2'd1:    in = {status_i.place[11:8], status_i.quality};
+        2'd2:    in = {4'd0, status_i.state};
+        default: in = {5'd0, status_i.reason};
+      endcase
+    end
+  end
+
+  assign fill = sum.widen[1] && index_q >= {1'b0, sum.widen};
+
+  always_comb begin
+    case (sum.source)
+      dsl_program_pkg::MEMORY: first_d = memory;
+      dsl_program_pkg::INPUT:  first_d = in;
+      dsl_program_pkg::ZEROS:  first_d = 8'h00;
+      default:                 first_d = 8'hFF;
+    endcase
+    if (fill) first_d = {8{negative_q}};
+  end
+
+  always_comb begin
+    case (sum.change)
+      dsl_program_pkg::PLAIN:    second = memory;
+      dsl_program_pkg::INVERTED: second = ~memory;
+      dsl_program_pkg::ANDED:    second = memory | ~first_q;
+      default:                   second = 8'h00;
+    endcase
+    if (fill_q) second = 8'h00;
+  end
+
+  always_comb begin
+    carry_in = carry_q;
+    if (lowest_q && sum.carry != dsl_program_pkg::CARRIED) carry_in = sum.carry[0];
+    if (fill_q) carry_in = 1'b0;
+  end
+
+  assign {carry, total} = {1'b0, first_q} + {1'b0, second} + {8'd0, carry_in};
+  assign result_to      = {sum.to, to_q[2] | sum.upper, to_q[1:0]};
+  assign write          = run && result_q && (carry || !sum.fits);
+  assign to_d           = index_q - {2'd0, sum.down};
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      second_q   <= 1'b0;
+      result_q   <= 1'b0;
+      index_q    <= '0;
+      to_q       <= '0;
+      lowest_q   <= 1'b1;
+      last_q     <= 1'b0;
+      fill_q     <= 1'b0;
+      first_q    <= '0;
+      zero_q     <= 1'b0;
+      carry_q    <= 1'b0;
+      negative_q <= 1'b0;
+    end else if (run && is_sum) begin
+      second_q <= !second_q && !(result_q && last_q);
+      result_q <= second_q;
+      if (second_q) begin
+        first_q <= first_d;
+        fill_q  <= fill;
+        to_q    <= to_d;
+        last_q  <= index_q == sum.last;
+        index_q <= index_q == sum.last ? 3'd0 : index_q + 3'd1;
+      end
+      if (result_q) begin
+        lowest_q   <= last_q;
+        zero_q     <= total == 8'h00 && (lowest_q || zero_q);
+        negative_q <= total[7];
+        if (!sum.hold) carry_q <= carry;
+      end
+    end
+  end
+
+  // ---- Answers ----------------------------------------------------------------------------------
+
+  // Byte RXi of a vertical frame becomes byte 5 - i, modulo 8: the position with its lowest byte
+  // first, the summary, the CRC.
+  always_comb begin
+    stores     = answer_i.valid;
+    word_index = {~(answer_i.place[2] ^ answer_i.place[1]), answer_i.place[1], ~answer_i.place[0]};
+    case (answer_i.number)
+      VERTICAL:  word_to = dsl_program_pkg::BYTES1;
+      SECONDARY: word_to = dsl_program_pkg::BYTES2;
+      HIGH_WORD, LOW_WORD: begin
+        word_to    = dsl_program_pkg::WORD;
+        word_index = {2'd0, answer_i.number[0]};
+      end
+      default: begin
+        word_to = dsl_program_pkg::WORD;
+        stores  = 1'b0;
+      end
+    endcase
+  end
+
+  assign stale_d = stale_q == 2'd3 ? 2'd3 : stale_q + 2'd1;
+  assign stale   = quirks_i.stale_limit != 2'd0 && stale_q >= quirks_i.stale_limit;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      frame_q    <= 1'b0;
+      begun_q    <= 1'b0;
+      ended_q    <= 1'b0;
+      vertical_q <= 1'b0;
+      stale_q    <= '0;
+      align_q    <= dsl_program_pkg::FIRST;
+    end else begin
+      if (answer_i.ends) frame_q <= 1'b0;
+      else if (answer_i.valid && answer_i.number == LOW_WORD) frame_q <= answer_i.running;
+      if (answer_i.begins)     begun_q <= 1'b1;
+      else if (answer_i.valid) begun_q <= 1'b0;
+      // told_i is right a clock later.
+      ended_q <= answer_i.ends && answer_i.running && answer_i.place == LAST_PLACE;
+      if (answer_i.ends) vertical_q <= answer_i.running && answer_i.place == LAST_PLACE;
+      if (answer_i.begins) stale_q <= '0;
+      else if (ended_q)    stale_q <= told_i.safe1_valid ? 2'd0 : stale_d;
+      if (!answer_i.linked) align_q <= dsl_program_pkg::FIRST;
+      else if (run && set)  align_q <= jump.state;
+    end
+  end
+
+  assign time_next_o      = run && is_sum && second_q && sum.source == dsl_program_pkg::INPUT
+                         && sum.second[1:0] == dsl_program_pkg::IN_TIME;
+  assign lost_o           = align_q != dsl_program_pkg::ALIGNED;
+  assign record_write_o   = write && result_to[7:6] == 2'd0;
+  assign record_address_o = result_to[5:0];
+  assign record_data_o    = total;
+  assign tell_o           = run && tell;
+
+endmodule

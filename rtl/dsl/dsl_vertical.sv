@@ -1,0 +1,205 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The checks of an answer's words: CRC5 of the acceleration, and over eight frames CRC16 of both
+// safe channels. It counts accelerations that are missing one after another.
+//
+// Clock domain: core. A word is taken with answer_i.valid and needs the nine clocks behind it. From
+// the clock behind answer_i.ends on verdict_o and told_o are those of the frame; a frame that is
+// not running leaves told_o. told_o.acceleration_good is right earlier: from the tenth clock behind
+// the second word of the acceleration on.
+//
+// A safe channel is good if neither the code of its eight bytes nor their CRC was wrong, and if no
+// special character but K28.x was among them: with one the encoder says that it has no position.
+// With the strict check such a character makes an acceleration bad too. With the rules of the
+// firmware bit TEST2 of the second channel counts for the quality, its CRC does not.
+// Misuse: a word less than ten clocks behind another, or behind `ends`, spoils both. A link that
+// goes on after verdict_o.missing counts beyond 31, to 0.
+// Source: docs/dsl.md, "The protocol"; CRC16 is enc_crc's, with its last byte inverted.
+
+module dsl_vertical (
+  input  logic              clk_i,
+  input  logic              rst_ni,
+  input  dsl_pkg::quirks_t  quirks_i,
+  input  logic [4:0]        limit_i,      // of missing accelerations
+  input  dsl_pkg::answer_t  answer_i,
+  output dsl_pkg::verdict_t verdict_o,
+  output dsl_pkg::told_t    told_o
+);
+
+  localparam logic [2:0] VERTICAL    = 3'd0;
+  localparam logic [2:0] HIGH_WORD   = 3'd3;
+  localparam logic [2:0] LOW_WORD    = 3'd4;
+  localparam logic [2:0] SECONDARY   = 3'd5;
+  localparam logic [2:0] FIRST_PLACE = 3'd0;
+  localparam logic [2:0] CRC_PLACE   = 3'd6;
+  localparam logic [2:0] LAST_PLACE  = 3'd7;
+  localparam logic [2:0] CRC5_BIT    = 3'd3;  // of the low word: the first bit of its CRC
+  localparam logic [7:0] POLY5       = 8'h05;
+  localparam logic [2:0] POLY5_LAST  = 3'd4;
+  localparam logic [4:0] K28         = 5'd28;
+
+  // The bits of a word, one a clock.
+  logic [7:0] byte_q;
+  logic [2:0] bit_q;          // number, the first one is 0
+  logic       shift_q;
+  logic       level;
+  logic       crc16_part;     // the bit is one of a CRC
+  logic       crc5_part;
+  logic       top1, top2, top5;
+  logic       first, last;    // frame of a vertical frame
+  logic       vertical, acceleration, secondary;
+  logic       mark;           // a special character but K28.x
+  logic       firmware;
+  logic       whole;          // a vertical frame ends, or none runs
+  // what has been wrong in this vertical frame
+  logic       code1_q, mark1_q, crc1_q;
+  logic       code2_q, mark2_q, crc2_q;
+  // ... in this frame
+  logic       event1_q, event2_q;
+  logic       bad_q;
+  logic [4:0] missing_q;
+  logic       error1_q, good1_q, error2_q;    // verdict_o
+  logic       safe1_valid_q, safe1_error_q;   // told_o
+  logic       safe2_valid_q, safe2_error_q;
+
+  assign first        = answer_i.place == FIRST_PLACE;
+  assign last         = answer_i.place == LAST_PLACE;
+  assign vertical     = answer_i.number == VERTICAL;
+  assign acceleration = answer_i.number == HIGH_WORD || answer_i.number == LOW_WORD;
+  assign secondary    = answer_i.number == SECONDARY;
+  assign mark         = answer_i.word.special && !answer_i.word.error
+                     && answer_i.word.data[4:0] != K28;
+  assign firmware     = quirks_i.rules == dsl_pkg::FIRMWARE;
+  assign whole        = answer_i.ends && (last || !answer_i.running);
+  assign level        = byte_q[7];
+  assign crc16_part   = answer_i.place >= CRC_PLACE;
+  assign crc5_part    = answer_i.number == LOW_WORD && bit_q >= CRC5_BIT;
+
+  enc_crc #(.Free(1'b0)) u_crc1 (
+    .clk_i,
+    .rst_ni,
+    .crc16_i (1'b1),
+    .poly_i  (8'd0),
+    .last_i  (3'd0),
+    .start_i (16'd0),
+    .load_i  (whole),
+    .shift_i (shift_q && vertical),
+    .feed_i  (!crc16_part),
+    .bit_i   (level),
+    .top_o   (top1)
+  );
+
+  enc_crc #(.Free(1'b0)) u_crc2 (
+    .clk_i,
+    .rst_ni,
+    .crc16_i (1'b1),
+    .poly_i  (8'd0),
+    .last_i  (3'd0),
+    .start_i (16'd0),
+    .load_i  (whole),
+    .shift_i (shift_q && secondary),
+    .feed_i  (!crc16_part),
+    .bit_i   (level),
+    .top_o   (top2)
+  );
+
+  enc_crc u_crc5 (
+    .clk_i,
+    .rst_ni,
+    .crc16_i (1'b0),
+    .poly_i  (POLY5),
+    .last_i  (POLY5_LAST),
+    .start_i (16'd0),
+    .load_i  (answer_i.ends),
+    .shift_i (shift_q && acceleration),
+    .feed_i  (!crc5_part),
+    .bit_i   (level),
+    .top_o   (top5)
+  );
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      byte_q  <= '0;
+      bit_q   <= '0;
+      shift_q <= 1'b0;
+    end else begin
+      byte_q <= answer_i.valid ? answer_i.word.data : {byte_q[6:0], 1'b0};
+      if (answer_i.valid) shift_q <= 1'b1;
+      else if (bit_q == 3'd7) shift_q <= 1'b0;
+      bit_q <= answer_i.valid || !shift_q ? 3'd0 : bit_q + 3'd1;
+    end
+  end
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      {code1_q, mark1_q, crc1_q} <= '0;
+      {code2_q, mark2_q, crc2_q} <= '0;
+      {event1_q, event2_q}       <= '0;
+      bad_q                      <= 1'b0;
+    end else begin
+      if (answer_i.valid && vertical) begin
+        if (answer_i.word.error) code1_q <= 1'b1;
+        if (mark)                mark1_q <= 1'b1;
+        event1_q <= answer_i.word.error && !code1_q;
+      end
+      if (answer_i.valid && secondary) begin
+        if (answer_i.word.error) code2_q <= 1'b1;
+        if (mark)                mark2_q <= 1'b1;
+        event2_q <= (answer_i.word.error && !code2_q)
+                 || (firmware && first && answer_i.word.data[6]);
+      end
+      if (answer_i.valid && acceleration) begin
+        if (answer_i.word.error || (quirks_i.strict_code && mark)) bad_q <= 1'b1;
+      end
+      if (shift_q && crc16_part) begin
+        if (vertical  && top1 == (level ^ last ^ 1'b1)) crc1_q <= 1'b1;
+        if (secondary && top2 == (level ^ last ^ 1'b1)) crc2_q <= 1'b1;
+      end
+      if (shift_q && crc5_part && top5 == level) bad_q <= 1'b1;
+      if (whole) begin
+        {code1_q, mark1_q, crc1_q} <= '0;
+        {code2_q, mark2_q, crc2_q} <= '0;
+      end
+      // The first word of the next frame comes before the acceleration.
+      if (answer_i.valid && vertical) bad_q <= 1'b0;
+    end
+  end
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      missing_q                      <= '0;
+      {error1_q, good1_q, error2_q}  <= '0;
+      {safe1_valid_q, safe1_error_q} <= '0;
+      {safe2_valid_q, safe2_error_q} <= '0;
+    end else if (answer_i.begins) begin
+      missing_q                      <= '0;
+      {safe1_valid_q, safe1_error_q} <= '0;
+      {safe2_valid_q, safe2_error_q} <= '0;
+    end else if (answer_i.ends && answer_i.running) begin
+      missing_q <= bad_q ? missing_q + 5'd1 : 5'd0;
+      error1_q  <= event1_q || (last && !code1_q && crc1_q);
+      good1_q   <= last && !code1_q && !crc1_q;
+      error2_q  <= event2_q || (last && !code2_q && crc2_q && !firmware);
+      if (last) begin
+        safe1_valid_q <= !code1_q && !crc1_q && !mark1_q;
+        safe1_error_q <= code1_q || crc1_q;
+        safe2_valid_q <= !code2_q && !crc2_q && !mark2_q;
+        safe2_error_q <= code2_q || crc2_q;
+      end
+    end
+  end
+
+  assign verdict_o.safe1_error = error1_q;
+  assign verdict_o.safe1_good  = good1_q;
+  assign verdict_o.safe2_error = error2_q;
+  assign verdict_o.missing     = missing_q >= limit_i;
+
+  assign told_o.acceleration_good = !bad_q;
+  assign told_o.missing           = missing_q;
+  assign told_o.safe1_valid       = safe1_valid_q;
+  assign told_o.safe1_error       = safe1_error_q;
+  assign told_o.safe2_valid       = safe2_valid_q;
+  assign told_o.safe2_error       = safe2_error_q;
+
+endmodule

@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The two safe channels: eight frames bring the eight bytes of each, and the last one judges them.
+#ifndef MB4SIM_DSL_MODEL_SAFE_CHANNELS_HPP_
+#define MB4SIM_DSL_MODEL_SAFE_CHANNELS_HPP_
+
+#include <array>
+#include <cstdint>
+
+#include "sim/masters/dsl_model/line_code.hpp"
+#include "sim/masters/dsl_model/quality.hpp"
+
+namespace mb4::sim::dsl_model {
+
+// A safe channel: what came with the last good vertical frame.
+struct SafeChannel {
+  std::uint64_t position = 0;  // 40 bits
+  std::uint16_t crc = 0;
+  std::uint8_t summary = 0;  // STATUS2 of the second channel
+  bool valid = false;        // the last vertical frame was good
+  bool error = false;        // its code or its CRC was wrong
+};
+
+class SafeChannels {
+ public:
+  // Frames of a vertical frame.
+  static constexpr unsigned kFrames = 8;
+
+  explicit SafeChannels(QualityRules rules) : firmware_(rules == QualityRules::kFirmware) {}
+
+  // A link begins.
+  void start() { safe1_ = safe2_ = {}; }
+  // Its first vertical frame does.
+  void begin() { bytes1_ = bytes2_ = {}; }
+  // A frame, the one at `place` in its vertical frame. True: the channels have been judged.
+  bool frame(unsigned place, const Word& vertical, const Word& secondary, QualityEvents& events);
+
+  const SafeChannel& safe1() const { return safe1_; }
+  const SafeChannel& safe2() const { return safe2_; }
+
+ private:
+  // The bytes of the running vertical frame.
+  struct Bytes {
+    std::array<std::uint8_t, kFrames> bytes{};
+    bool code_error = false;
+    bool marked = false;  // the encoder reports a fault of its own, or another special character
+  };
+
+  bool firmware_;
+  Bytes bytes1_;
+  Bytes bytes2_;
+  SafeChannel safe1_;
+  SafeChannel safe2_;
+};
+
+}  // namespace mb4::sim::dsl_model
+
+#endif  // MB4SIM_DSL_MODEL_SAFE_CHANNELS_HPP_

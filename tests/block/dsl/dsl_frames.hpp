@@ -1,0 +1,189 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Answers for the blocks behind the line of the DSL master: what stands in a frame, and the port
+// that it comes by.
+#ifndef TESTS_BLOCK_DSL_DSL_FRAMES_HPP_
+#define TESTS_BLOCK_DSL_DSL_FRAMES_HPP_
+
+#include <array>
+#include <cstdint>
+
+#include "sim/masters/dsl_model/line_code.hpp"
+#include "sim/masters/dsl_model/link.hpp"
+#include "tests/support/dice.hpp"
+
+namespace dsl_frames {
+
+using namespace mb4::sim::dsl_model;
+
+// The words of a frame as they come: vertical, S_PAR, pipeline, two of the acceleration, secondary.
+enum Place : unsigned { kVertical, kParameter, kPipeline, kHigh, kLow, kSecondary, kWords };
+using Words = std::array<Word, kWords>;
+
+inline Word byte_word(unsigned byte) { return {.byte = static_cast<std::uint8_t>(byte)}; }
+
+inline void set_acceleration(Words& words, unsigned word) {
+  words[kHigh] = byte_word(word >> 8U & 0xFFU);
+  words[kLow] = byte_word(word & 0xFFU);
+}
+
+inline AnswerWords answer_of(const Words& words) {
+  return {.vertical = words[kVertical],
+          .parameter = words[kParameter],
+          .pipeline = words[kPipeline],
+          .acceleration_high = words[kHigh],
+          .acceleration_low = words[kLow],
+          .secondary = words[kSecondary]};
+}
+
+// Makes a word what a bad line, or an encoder with a fault, could send.
+inline void spoil(Word& word, mb4test::Dice& random) {
+  switch (random.below(6)) {
+    case 0:
+      word.error = true;
+      break;
+    case 1:
+      word.error = word.special = true;
+      break;
+    case 2:
+      word = {.byte = kMarker1, .special = true};
+      break;
+    case 3:
+      word = {.byte = static_cast<std::uint8_t>(random.below(8) << 5U | 28U), .special = true};
+      break;
+    case 4:
+      word.special = true;
+      break;
+    default:
+      word.byte ^= static_cast<std::uint8_t>(1U << random.below(8));
+  }
+}
+
+// The eight bytes of a safe channel.
+using SafeBytes = std::array<std::uint8_t, SafeChannels::kFrames>;
+inline SafeBytes safe_bytes(unsigned summary, std::uint64_t position) {
+  SafeBytes bytes{};
+  bytes[0] = static_cast<std::uint8_t>(summary);
+  for (unsigned i = 1; i <= 5; ++i) bytes[i] = static_cast<std::uint8_t>(position >> 8 * (5 - i));
+  const std::uint16_t crc = crc16({bytes.data(), 6});
+  bytes[6] = static_cast<std::uint8_t>(crc >> 8U);
+  bytes[7] = static_cast<std::uint8_t>(crc);
+  return bytes;
+}
+
+// dsl_pkg::answer_t.
+struct AnswerPort {
+  bool linked = false;
+  bool begins = false;
+  bool running = false;
+  unsigned place = 0;
+  bool valid = false;
+  unsigned number = 0;
+  Word word{};
+  bool ends = false;
+
+  std::uint32_t bits() const {
+    const auto bit = [](bool level) { return level ? 1U : 0U; };
+    const unsigned word_bits = unsigned{word.byte} << 3U | bit(word.error) << 2U |
+                               bit(word.special) << 1U | bit(word.only_strict);
+    return bit(linked) << 21U | bit(begins) << 20U | bit(running) << 19U | place << 16U |
+           bit(valid) << 15U | number << 12U | word_bits << 1U | bit(ends);
+  }
+};
+
+// dsl_pkg::quirks_t.
+inline unsigned quirks_of(const LinkRules& rules) {
+  unsigned port = 0;
+  const auto add = [&port](unsigned value, unsigned width) { port = port << width | value; };
+  add(0, 1);
+  add(rules.recover ? 1 : 0, 1);
+  add(rules.check == CodeCheck::kStrict ? 1 : 0, 1);
+  add(static_cast<unsigned>(rules.sample), 2);
+  add(static_cast<unsigned>(rules.quality), 2);
+  add(rules.rssi_table ? 1 : 0, 1);
+  add(rules.rx_start, 4);
+  add(rules.start_blocks, 5);
+  add(rules.vsync_limit, 8);
+  add(rules.stale_limit, 2);
+  return port;
+}
+
+// What dsl_position takes of dsl_pkg::line_status_t.
+struct StatusPort {
+  unsigned state = 0;
+  unsigned reason = 0;
+  unsigned identity = 0;
+  unsigned quality = 0;
+  unsigned delay = 0;
+
+  template <typename Port>
+  void write(Port& port) const {
+    unsigned at = 0;
+    const auto add = [&port, &at](unsigned value, unsigned width) {
+      for (unsigned i = 0; i < width; ++i, ++at) {
+        const unsigned bit = 1U << at % 32;
+        port[at / 32] = (port[at / 32] & ~bit) | ((value >> i & 1U) != 0 ? bit : 0U);
+      }
+    };
+    add(delay << 8U, 12);
+    add(0, 8 + 4 + 1);
+    add(quality, 4);
+    add(identity, 20);
+    add(0, 16 + 16);
+    add(reason, 3);
+    add(state, 4);
+  }
+};
+
+// dsl_pkg::told_t.
+struct Told {
+  explicit Told(unsigned port)
+      : acceleration_good((port >> 9U & 1U) != 0),
+        missing(port >> 4U & 0x1FU),
+        safe1_valid((port >> 3U & 1U) != 0),
+        safe1_error((port >> 2U & 1U) != 0),
+        safe2_valid((port >> 1U & 1U) != 0),
+        safe2_error((port & 1U) != 0) {}
+  bool acceleration_good;
+  unsigned missing;
+  bool safe1_valid;
+  bool safe1_error;
+  bool safe2_valid;
+  bool safe2_error;
+};
+
+// dsl_pkg::verdict_t.
+struct Verdict {
+  explicit Verdict(unsigned port)
+      : safe1_error((port >> 3U & 1U) != 0),
+        safe1_good((port >> 2U & 1U) != 0),
+        safe2_error((port >> 1U & 1U) != 0),
+        missing((port & 1U) != 0) {}
+  bool safe1_error;
+  bool safe1_good;
+  bool safe2_error;
+  bool missing;
+};
+
+// Sends the words of a frame and its end. `clock` is one clock of what listens. Words are 10 to
+// 10 + `spread` clocks apart, on a line 80.
+template <typename Clock>
+void send(AnswerPort& port, const Words& words, unsigned spread, mb4test::Dice& random,
+          const Clock& clock) {
+  for (unsigned i = 0; i < kWords; ++i) {
+    port.valid = true;
+    port.number = i;
+    port.word = words[i];
+    clock();
+    port.valid = false;
+    for (unsigned rest = 9 + random.below(spread + 1); rest != 0; --rest) clock();
+  }
+  port.ends = true;
+  clock();
+  port.ends = false;
+}
+
+}  // namespace dsl_frames
+
+#endif  // TESTS_BLOCK_DSL_DSL_FRAMES_HPP_
