@@ -20,3 +20,4 @@ dsl_line.sv
 dsl_vertical.sv
 dsl_program.sv
 dsl_position.sv
+dsl_record.sv

@@ -10,13 +10,11 @@
 // complete. From then on lost_o is that of this frame; it is 1 without a link. A new link
 // (answer_i.begins) clears all but frames and time, in 900 clocks; so does the reset, with them.
 //
-// Record, a byte at a time: record_write_o writes record_data_o to record_address_o. Addresses:
-// 0 position (5 bytes, the lowest one first), 8 speed (5), 16 running frames (4), 20 status (4),
-// 24 time (8), 32 and 40 safe positions 1 and 2 (5), summary, CRC (2), 48 and 52 their ages in
-// frames. An age is all ones if none has come. Each tell_o has a whole record before it, so a
-// reader needs banks that change with it (dsl_record).
-// Status: byte 0 as STATUS, with the errors of the two safe channels in bits 6 and 7; byte 1
-// quality and delay; byte 2 the state of the link; byte 3 the reason.
+// Record: a byte at a time, record_data_o goes to record_address_o with record_write_o. The lowest
+// byte of a number comes first; dsl_program has its order, eight addresses a value. An age is all
+// ones if none has come. Each tell_o has a whole record before it, so a reader needs banks that
+// change with it (dsl_record). Status: byte 0 as STATUS, with the errors of the two safe channels
+// in bits 6 and 7; byte 1 quality and delay; byte 2 the state of the link; byte 3 the reason.
 //
 // time_i: the byte of the frame's time; time_next_o asks for the next one, eight times a frame, the
 // lowest one first. The first one is taken 5 clocks or more behind the second word.
@@ -55,7 +53,7 @@ module dsl_position (
   dsl_program_pkg::sum_t        sum;
   dsl_program_pkg::jump_t       jump;
   dsl_program_pkg::conditions_t conditions;
-  logic [12:0]                  condition_bits;
+  logic [13:0]                  condition_bits;
   logic                         is_sum, set, tell;
   logic                         taken, next;
 
@@ -87,7 +85,7 @@ module dsl_position (
   logic [1:0] stale_d, stale_q; // vertical frames without a good safe position 1
   logic       stale;
   logic [7:0] status0;
-  logic [9:0] identity;
+  logic [10:0] identity;
   logic [6:0] width;
 
   assign run = ready_q && !stores;
@@ -107,20 +105,21 @@ module dsl_position (
   assign set    = sum.kind == dsl_program_pkg::SET;
   assign tell   = sum.kind == dsl_program_pkg::TELL;
 
-  assign conditions.in_state = align_q == jump.state;
-  assign conditions.recover  = quirks_i.recover;
-  assign conditions.stale    = stale;
-  assign conditions.new2     = told_i.safe2_valid;
-  assign conditions.new1     = told_i.safe1_valid;
-  assign conditions.vertical = vertical_q;
-  assign conditions.good     = told_i.acceleration_good;
-  assign conditions.begun    = begun_q;
-  assign conditions.frame    = frame_q;
-  assign conditions.any      = 1'b1;
-  assign conditions.negative = negative_q;
-  assign conditions.carry    = carry_q;
-  assign conditions.zero     = zero_q;
-  assign condition_bits      = conditions;
+  assign conditions.is_signed = identity[10];
+  assign conditions.in_state  = align_q == jump.state;
+  assign conditions.recover   = quirks_i.recover;
+  assign conditions.stale     = stale;
+  assign conditions.new2      = told_i.safe2_valid;
+  assign conditions.new1      = told_i.safe1_valid;
+  assign conditions.vertical  = vertical_q;
+  assign conditions.good      = told_i.acceleration_good;
+  assign conditions.begun     = begun_q;
+  assign conditions.frame     = frame_q;
+  assign conditions.any       = 1'b1;
+  assign conditions.negative  = negative_q;
+  assign conditions.carry     = carry_q;
+  assign conditions.zero      = zero_q;
+  assign condition_bits       = conditions;
 
   assign taken = (jump.kind == dsl_program_pkg::JUMP || set)
               && (condition_bits[jump.condition] ^ jump.inverted);
@@ -155,7 +154,7 @@ module dsl_position (
   );
 
   // Bits of the position less those of the acceleration, and bits of the acceleration less 8.
-  assign identity = status_i.identity[9:0];
+  assign identity = status_i.identity[10:0];
   assign width    = {1'b0, identity[9:4]} + {3'd0, identity[3:0]} + 7'd8;
 
   assign status0 = {told_i.safe2_error, told_i.safe1_error,

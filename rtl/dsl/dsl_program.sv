@@ -16,14 +16,15 @@ module dsl_program (
   output logic [31:0] row_o       // dsl_program_pkg::sum_t, jump_t
 );
 
-  // Values. Those up to AGES are the record of a frame.
+  // Values. Those up to WIDE are the record of a frame.
   localparam logic [4:0] FAST    = 5'd0;   // the position, 40 bits
   localparam logic [4:0] SPEED   = 5'd1;   // 24 bits, widened by its sign to 40
-  localparam logic [4:0] COUNT   = 5'd2;   // running frames; bytes 4 to 7: status
+  localparam logic [4:0] COUNT   = 5'd2;   // running frames, 32 bits; bytes 4 to 7: status
   localparam logic [4:0] TIME    = 5'd3;   // of the frame's edge
   localparam logic [4:0] SAFE1   = 5'd4;   // bytes 0 to 4: position, 5: summary, 6 and 7: CRC
   localparam logic [4:0] SAFE2   = 5'd5;
   localparam logic [4:0] AGES    = 5'd6;   // of the two in frames, four bytes each
+  localparam logic [4:0] WIDE    = 5'd7;   // the position, 64 bits
   localparam logic [4:0] BYTES1  = dsl_program_pkg::BYTES1;   // as SAFE1, of the frame that runs
   localparam logic [4:0] BYTES2  = dsl_program_pkg::BYTES2;
   localparam logic [4:0] WORD    = dsl_program_pkg::WORD;     // the acceleration with its CRC
@@ -51,7 +52,7 @@ module dsl_program (
   // Conditions: the bits of dsl_program_pkg::conditions_t.
   localparam logic [3:0] ZERO = 4'd0, CARRY = 4'd1, NEGATIVE = 4'd2, ALWAYS = 4'd3, FRAME = 4'd4,
                          BEGUN = 4'd5, GOOD = 4'd6, VERTICAL = 4'd7, NEW1 = 4'd8, NEW2 = 4'd9,
-                         STALE = 4'd10, RECOVER = 4'd11, IN_STATE = 4'd12;
+                         STALE = 4'd10, RECOVER = 4'd11, IN_STATE = 4'd12, SIGNED = 4'd13;
 
   // States: dsl_program_pkg::align_e; inputs: dsl_program_pkg::input_e.
   localparam logic [2:0] FIRST = 3'd0, SECOND = 3'd1, THIRD = 3'd2, FOURTH = 3'd3, ALIGNED = 3'd4,
@@ -59,30 +60,14 @@ module dsl_program (
   localparam logic [4:0] IN_TIME = 5'd0, IN_STATUS = 5'd1, IN_WIDTH = 5'd2;
 
   // Sections.
-  localparam logic [7:0] POWER    = 8'd0;
-  localparam logic [7:0] LINK     = POWER + 8'd2;
-  localparam logic [7:0] BEGIN    = LINK + 8'd31;
-  localparam logic [7:0] GUESS    = BEGIN + 8'd4;
-  localparam logic [7:0] KNOWN    = GUESS + 8'd11;
-  localparam logic [7:0] SCALE    = KNOWN + 8'd1;
-  localparam logic [7:0] BOUND    = SCALE + 8'd4;
-  localparam logic [7:0] MISSED   = BOUND + 8'd7;
-  localparam logic [7:0] ADD      = MISSED + 8'd5;
-  localparam logic [7:0] WAIT     = ADD + 8'd16;
-  localparam logic [7:0] SAFE     = WAIT + 8'd2;
-  localparam logic [7:0] PLACE    = SAFE + 8'd17;
-  localparam logic [7:0] PAUSE    = PLACE + 8'd3;
-  localparam logic [7:0] WITHOUT  = PAUSE + 8'd1;
-  localparam logic [7:0] FAIL     = WITHOUT + 8'd2;
-  localparam logic [7:0] KEEP     = FAIL + 8'd1;
-  localparam logic [7:0] OFF      = KEEP + 8'd3;
-  localparam logic [7:0] CORRECT  = OFF + 8'd6;
-  localparam logic [7:0] MEND     = CORRECT + 8'd9;
-  localparam logic [7:0] MENDED   = MEND + 8'd22;
-  localparam logic [7:0] ENDED    = MENDED + 8'd12;
-  localparam logic [7:0] SHOW     = ENDED + 8'd3;
-  localparam logic [7:0] STATUS   = SHOW + 8'd2;
-  localparam logic [7:0] IDLE     = STATUS + 8'd2;
+  localparam logic [7:0] POWER = 8'd0, LINK = POWER + 8'd2, BEGIN = LINK + 8'd32,
+                         GUESS = BEGIN + 8'd4, KNOWN = GUESS + 8'd11, SCALE = KNOWN + 8'd1,
+                         BOUND = SCALE + 8'd4, MISSED = BOUND + 8'd7, ADD = MISSED + 8'd5,
+                         WAIT = ADD + 8'd18, SAFE = WAIT + 8'd2, PLACE = SAFE + 8'd17,
+                         PAUSE = PLACE + 8'd3, WITHOUT = PAUSE + 8'd1, FAIL = WITHOUT + 8'd2,
+                         KEEP = FAIL + 8'd1, OFF = KEEP + 8'd3, CORRECT = OFF + 8'd6,
+                         MEND = CORRECT + 8'd9, MENDED = MEND + 8'd22, ENDED = MENDED + 8'd12,
+                         SHOW = ENDED + 8'd3, STATUS = SHOW + 8'd5, IDLE = STATUS + 8'd2;
 
   // Rows. The last twelve bits of a sum are source, change and carry, and six that can be added.
   function automatic logic [31:0] plus(input logic [4:0] to, first, second, input logic [2:0] last);
@@ -149,34 +134,35 @@ module dsl_program (
       LINK:             row = copy(COUNT, COUNT, 3'd3);
       LINK + 8'd1:      row = copy(TIME, TIME, 3'd7);
       LINK + 8'd2:      row = zeros(SPEED, 3'd4);
-      LINK + 8'd3:      row = zeros(FAST, 3'd4);
-      LINK + 8'd4:      row = zeros(MOVED, 3'd4);
-      LINK + 8'd5:      row = zeros(A0, 3'd2);
-      LINK + 8'd6:      row = zeros(A1, 3'd1);
-      LINK + 8'd7:      row = zeros(A2, 3'd1);
-      LINK + 8'd8:      row = zeros(A3, 3'd1);
-      LINK + 8'd9:      row = zeros(A4, 3'd1);
-      LINK + 8'd10:     row = zeros(A5, 3'd1);
-      LINK + 8'd11:     row = zeros(SAFE1, 3'd7);
-      LINK + 8'd12:     row = zeros(SAFE2, 3'd7);
-      LINK + 8'd13:     row = ones(AGES, 3'd7);
-      LINK + 8'd14:     row = zeros(SHORT, 3'd4);
-      LINK + 8'd15:     row = ones(SHORT, 3'd1);
-      LINK + 8'd16:     row = zeros(HIGHEST, 3'd4) | PLUS_1;
-      LINK + 8'd17:     row = plus(HIGHEST, HIGHEST, HIGHEST, 3'd4) | PLUS_1;
-      LINK + 8'd18:     row = zeros(LEFT, 3'd0) | PLUS_1;
-      LINK + 8'd19:     row = plus(HIGHEST, HIGHEST, HIGHEST, 3'd4) | PLUS_1;
-      LINK + 8'd20:     row = plus(LEFT, LEFT, LEFT, 3'd0);
-      LINK + 8'd21:     row = jump_unless(ZERO, LINK + 8'd19);
-      LINK + 8'd22:     row = zeros(TOP, 3'd4) | PLUS_1;
-      LINK + 8'd23:     row = take(LEFT, IN_WIDTH, 3'd0);
-      LINK + 8'd24:     row = less_1(LEFT, LEFT, 3'd0);
-      LINK + 8'd25:     row = jump_if(ZERO, LINK + 8'd28);
-      LINK + 8'd26:     row = plus(TOP, TOP, TOP, 3'd4);
-      LINK + 8'd27:     row = jump_if(ALWAYS, LINK + 8'd24);
-      LINK + 8'd28:     row = plus(MASK, TOP, TOP, 3'd4);
-      LINK + 8'd29:     row = less_1(MASK, MASK, 3'd4);
-      LINK + 8'd30:     row = jump_if(ALWAYS, STATUS);
+      LINK + 8'd3:      row = zeros(FAST, 3'd7);
+      LINK + 8'd4:      row = zeros(WIDE, 3'd7);
+      LINK + 8'd5:      row = zeros(MOVED, 3'd4);
+      LINK + 8'd6:      row = zeros(A0, 3'd2);
+      LINK + 8'd7:      row = zeros(A1, 3'd1);
+      LINK + 8'd8:      row = zeros(A2, 3'd1);
+      LINK + 8'd9:      row = zeros(A3, 3'd1);
+      LINK + 8'd10:     row = zeros(A4, 3'd1);
+      LINK + 8'd11:     row = zeros(A5, 3'd1);
+      LINK + 8'd12:     row = zeros(SAFE1, 3'd7);
+      LINK + 8'd13:     row = zeros(SAFE2, 3'd7);
+      LINK + 8'd14:     row = ones(AGES, 3'd7);
+      LINK + 8'd15:     row = zeros(SHORT, 3'd4);
+      LINK + 8'd16:     row = ones(SHORT, 3'd1);
+      LINK + 8'd17:     row = zeros(HIGHEST, 3'd4) | PLUS_1;
+      LINK + 8'd18:     row = plus(HIGHEST, HIGHEST, HIGHEST, 3'd4) | PLUS_1;
+      LINK + 8'd19:     row = zeros(LEFT, 3'd0) | PLUS_1;
+      LINK + 8'd20:     row = plus(HIGHEST, HIGHEST, HIGHEST, 3'd4) | PLUS_1;
+      LINK + 8'd21:     row = plus(LEFT, LEFT, LEFT, 3'd0);
+      LINK + 8'd22:     row = jump_unless(ZERO, LINK + 8'd20);
+      LINK + 8'd23:     row = zeros(TOP, 3'd7) | PLUS_1;
+      LINK + 8'd24:     row = take(LEFT, IN_WIDTH, 3'd0);
+      LINK + 8'd25:     row = less_1(LEFT, LEFT, 3'd0);
+      LINK + 8'd26:     row = jump_if(ZERO, LINK + 8'd29);
+      LINK + 8'd27:     row = plus(TOP, TOP, TOP, 3'd4);
+      LINK + 8'd28:     row = jump_if(ALWAYS, LINK + 8'd25);
+      LINK + 8'd29:     row = plus(MASK, TOP, TOP, 3'd7);
+      LINK + 8'd30:     row = less_1(MASK, MASK, 3'd7);
+      LINK + 8'd31:     row = jump_if(ALWAYS, STATUS);
       // The acceleration of a running frame is there.
       BEGIN:            row = take(TIME, IN_TIME, 3'd7);
       BEGIN + 8'd1:     row = copy(COUNT, COUNT, 3'd3) | PLUS_1;
@@ -215,7 +201,7 @@ module dsl_program (
       MISSED + 8'd2:    row = set(FIRST, ADD);
       MISSED + 8'd3:    row = zeros(SINCE, 3'd0) | PLUS_1;
       MISSED + 8'd4:    row = set(LOST, ADD);
-      // Sums of the frame.
+      // Sums of the frame, and what stays as it is.
       ADD:              row = copy(A5, A4, 3'd1);
       ADD + 8'd1:       row = copy(A4, A3, 3'd1);
       ADD + 8'd2:       row = copy(A3, A2, 3'd1);
@@ -232,6 +218,8 @@ module dsl_program (
       ADD + 8'd13:      row = copy(AGES, AGES, 3'd3) | PLUS_1 | UPPER;
       ADD + 8'd14:      row = jump_unless(CARRY, ADD + 8'd16);
       ADD + 8'd15:      row = ones(AGES, 3'd3) | UPPER;
+      ADD + 8'd16:      row = copy(SAFE1, SAFE1, 3'd7);
+      ADD + 8'd17:      row = copy(SAFE2, SAFE2, 3'd7);
       // The frame ends.
       WAIT:             row = jump_if(FRAME, WAIT);
       WAIT + 8'd1:      row = jump_unless(VERTICAL, SHOW);
@@ -325,9 +313,12 @@ module dsl_program (
       ENDED:            row = zeros(MOVED, 3'd4);
       ENDED + 8'd1:     row = jump_unless(STALE, SHOW);
       ENDED + 8'd2:     row = set(FIRST, SHOW);
-      // The rest of the record.
-      SHOW:             row = copy(SAFE1, SAFE1, 3'd7);
-      SHOW + 8'd1:      row = copy(SAFE2, SAFE2, 3'd7);
+      // The position as 64 bits, by its sign if it has one.
+      SHOW:             row = copy(WIDE, FAST, 3'd7);
+      SHOW + 8'd1:      row = jump_unless(SIGNED, STATUS);
+      SHOW + 8'd2:      row = masked(NOWHERE, FAST, TOP, 3'd4);
+      SHOW + 8'd3:      row = jump_if(ZERO, STATUS);
+      SHOW + 8'd4:      row = plus_not(WIDE, WIDE, MASK, 3'd7);
       // Its last value.
       STATUS:           row = take(COUNT, IN_STATUS, 3'd3) | UPPER;
       STATUS + 8'd1:    row = tell();

@@ -68,7 +68,8 @@ package dsl_program_pkg;
   } jump_t;
 
   typedef struct packed {
-    logic in_state;
+    logic is_signed;        // the position is
+    logic in_state;         // the alignment is in the state of the row
     logic recover;
     logic stale;            // too many vertical frames without a good safe position 1
     logic new2;             // the vertical frame has a good safe position 2

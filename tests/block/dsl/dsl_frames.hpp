@@ -166,18 +166,17 @@ struct Verdict {
   bool missing;
 };
 
-// Sends the words of a frame and its end. `clock` is one clock of what listens. Words are 10 to
-// 10 + `spread` clocks apart, on a line 80.
-template <typename Clock>
-void send(AnswerPort& port, const Words& words, unsigned spread, mb4test::Dice& random,
-          const Clock& clock) {
+// Sends the words of a frame and its end. `clock` is one clock of what listens, `gap` gives the
+// clocks from the word of a number to what follows it, 10 or more.
+template <typename Gap, typename Clock>
+void send(AnswerPort& port, const Words& words, const Gap& gap, const Clock& clock) {
   for (unsigned i = 0; i < kWords; ++i) {
     port.valid = true;
     port.number = i;
     port.word = words[i];
     clock();
     port.valid = false;
-    for (unsigned rest = 9 + random.below(spread + 1); rest != 0; --rest) clock();
+    for (unsigned rest = gap(i) - 1; rest != 0; --rest) clock();
   }
   port.ends = true;
   clock();

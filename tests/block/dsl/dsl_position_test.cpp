@@ -25,9 +25,9 @@ namespace {
 
 using namespace dsl_frames;
 
-// Clocks from the end of a frame to its record, and up to 200 more, as words come faster than a
-// line brings them.
-constexpr unsigned kLatest = 750;
+// Clocks from the end of a frame to its record, at line speed, and with words that come faster.
+constexpr unsigned kLatestOnLine = 700;
+constexpr unsigned kLatest = 900;
 constexpr std::uint64_t kNever = 0xFFFF'FFFF;
 
 // Where things stand in the record.
@@ -38,8 +38,9 @@ constexpr unsigned kStatus = 20;
 constexpr unsigned kTime = 24;
 constexpr unsigned kSafe[] = {32, 40};
 constexpr unsigned kAge[] = {48, 52};
+constexpr unsigned kWide = 56;
 // Bytes of each eight that hold something.
-constexpr std::array<unsigned, 8> kUsed = {5, 5, 8, 8, 8, 8, 8, 0};
+constexpr std::array<unsigned, 8> kUsed = {5, 5, 8, 8, 8, 8, 8, 8};
 
 // What the encoder does: a place that moves by a speed, which changes by an acceleration.
 struct Encoder {
@@ -87,6 +88,7 @@ class DslPositionBlock : public testing::Test {
     }
     if (m.time_next_o != 0) ++time_bytes;
     told = m.tell_o != 0;
+    ++clocks;
     vertical_block.clock();
     position_block.clock();
   }
@@ -115,10 +117,10 @@ class DslPositionBlock : public testing::Test {
     width = bits;
     mask = (std::uint64_t{1} << bits) - 1;
     m.quirks_i = quirks_of({.recover = recover, .stale_limit = stale_limit});
-    // Up to 63 bits more than the acceleration, which has 8 to 11.
-    const unsigned more = random.below(4);
+    // The acceleration has 8 to 11 bits of them.
+    const unsigned acceleration_bits = 8 + std::min(random.below(4), bits - 8);
     status.identity =
-        1U << 18U | (bits - 8 - std::min(more, bits - 8)) << 4U | std::min(more, bits - 8);
+        (is_signed ? 1U << 10U : 0U) | (bits - acceleration_bits) << 4U | (acceleration_bits - 8);
     status.write(m.status_i);
     port = {};
     for (unsigned i = 0; i < 5; ++i) clock();
@@ -130,7 +132,8 @@ class DslPositionBlock : public testing::Test {
     EXPECT_EQ(value(kPosition, 5), 0U);
     EXPECT_EQ(value(kAge[0], 4), kNever);
     // The frame with VSYNC.
-    dsl_frames::send(port, Words{}, 2, random, [this] { clock(); });
+    dsl_frames::send(
+        port, Words{}, [](unsigned) { return 10; }, [this] { clock(); });
     port.running = true;
     motion = Motion({.recover = recover, .stale_limit = stale_limit});
     motion.start(bits);
@@ -169,9 +172,21 @@ class DslPositionBlock : public testing::Test {
     status.state = random.below(16);
     status.reason = random.below(8);
     status.write(m.status_i);
-    for (unsigned rest = 1 + random.below(4); rest != 0; --rest) clock();
-    dsl_frames::send(port, words, 30, random, [this] { clock(); });
+    if (line_speed) {
+      // 864 clocks from one frame to the next one.
+      while (clocks < 864) clock();
+      clocks = 0;
+    } else {
+      for (unsigned rest = 1 + random.below(4); rest != 0; --rest) clock();
+    }
+    const auto gap = [this](unsigned word) {
+      if (!line_speed) return 10 + random.below(31);
+      return word == kSecondary ? line_end : word == kLow ? 88 : 80;
+    };
+    dsl_frames::send(port, words, gap, [this] { clock(); });
+    const std::uint64_t ended = clocks;
     until_told(kLatest);
+    if (clocks - ended > longest) longest = clocks - ended;
     ++frames;
 
     const auto acceleration = acceleration_in(answer, CodeCheck::kStrict);
@@ -192,6 +207,8 @@ class DslPositionBlock : public testing::Test {
   void compare() {
     ASSERT_EQ(m.lost_o, motion.lost());
     ASSERT_EQ(value(kPosition, 5), motion.position());
+    const bool negative = is_signed && (motion.position() >> (width - 1)) != 0;
+    ASSERT_EQ(value(kWide, 8), motion.position() | (negative ? ~mask : 0));
     ASSERT_EQ(value(kSpeed, 5), static_cast<std::uint64_t>(motion.speed()) & 0xFF'FFFF'FFFF);
     ASSERT_EQ(value(kCount, 4), frames & 0xFFFF'FFFF);
     ASSERT_EQ(time_bytes, 8U);
@@ -249,6 +266,10 @@ class DslPositionBlock : public testing::Test {
   std::array<std::uint8_t, 64> record{};
   std::uint64_t written = 0;
   bool told = false;
+  std::uint64_t clocks = 0;
+  bool line_speed = false;    // the words come as fast as a line brings them
+  unsigned line_end = 12;     // clocks from the last word to the frame's end
+  std::uint64_t longest = 0;  // from there to the record
 
   Encoder encoder;
   unsigned width = 32;
@@ -345,6 +366,28 @@ TEST_F(DslPositionBlock, OneWordLostAsPublished_FourVerticalFramesMendIt) {
       run(Injury{});
     }
   }
+}
+
+// The record of a frame is there before the next frame's acceleration needs the adder, also when a
+// loss is mended, which takes longest. On the longest line the last word comes latest, and the end
+// of the window soon behind it.
+TEST_F(DslPositionBlock, AtLineSpeed_RecordComesBeforeTheNextFrame) {
+  line_speed = true;
+  is_signed = true;
+  for (const unsigned end : {12U, 45U, 12U + 80U, 45U + 80U}) {
+    SCOPED_TRACE(testing::Message() << "last word " << end << " clocks before the end");
+    line_end = end;
+    encoder = {.position = noise.next(), .before = 0};
+    encoder.sample(0);
+    begin_link(40, true, 2);
+    align();
+    for (unsigned i = 0; i < 64; ++i) {
+      encoder.sample(next_acceleration());
+      run(Injury{.acceleration = i % 16 == i / 16});
+    }
+    EXPECT_LE(longest, kLatestOnLine);
+  }
+  EXPECT_GT(longest, kLatestOnLine / 2);
 }
 
 // What is wrong after a loss is a whole number of steps in each frame, at most 2047: else alignment

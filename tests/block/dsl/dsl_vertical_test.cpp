@@ -43,7 +43,8 @@ class DslVerticalBlock : public testing::Test {
     port.running = true;
   }
   void send(const Words& words) {
-    dsl_frames::send(port, words, 3, random, [this] { clock(); });
+    dsl_frames::send(
+        port, words, [this](unsigned) { return 10 + random.below(4); }, [this] { clock(); });
     m.answer_i = port.bits();
     m.eval();
   }
