@@ -12,7 +12,7 @@
 // clocks: one
 // depth: 30
 // cover: 20
-// unbounded: induction 22
+// unbounded: reachability
 // look: dut_rest = u_dut.rest
 // look: dut_done = u_dut.done
 // mutation: common/enc_axil.sv | if (rest) write_q <= write && !(read && write_q);

@@ -9,7 +9,7 @@
 // clocks: one
 // depth: 9
 // cover: 9
-// unbounded: no: the queue and the memory of the FIFO would have to be compared bit by bit
+// unbounded: reachability
 // mutation: common/enc_axis_fifo.sv | take    = !valid_q || m_axis_tready; | take    = m_axis_tready;
 // mutation: common/enc_axis_fifo.sv | store   = push_i && !full && !through;
 //   | store   = push_i && !through;

@@ -14,7 +14,7 @@
 // clocks: one
 // depth: 12
 // cover: 10
-// unbounded: induction 2
+// unbounded: reachability
 // look: dut_hold = u_dut.hold_q
 // look: dut_end = u_dut.end_q
 // look: dut_swap = u_dut.swap

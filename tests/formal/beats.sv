@@ -12,7 +12,7 @@
 // clocks: one
 // depth: 12
 // cover: 12
-// unbounded: induction 4
+// unbounded: reachability
 // look: dut_push = u_dut.gen_beats.u_fifo.push_i
 // look: dut_data = u_dut.gen_beats.u_fifo.data_i
 // look: dut_user = u_dut.gen_beats.u_fifo.user_i

@@ -11,7 +11,7 @@
 // clocks: one
 // depth: 26
 // cover: 26
-// unbounded: no: the queue's count is tied to the model's only through 3 clocks of history
+// unbounded: reachability
 // keep: mb4/host/mb4_bridge.sv | parameter int unsigned WaitLimit = 1024 | parameter int unsigned WaitLimit = 4
 // keep: mb4/host/mb4_bridge.sv | localparam logic [7:0]  ROOM    = 8'd124; | localparam logic [7:0]  ROOM    = 8'd4;
 // mutation: mb4/host/mb4_bridge.sv | posts && posted_q > ROOM | posts && posted_q > ROOM + 8'd3

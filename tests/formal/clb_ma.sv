@@ -8,7 +8,7 @@
 //
 // claim: every level of MA lasts half a period at least, from the first edge on to the last one
 // clocks: one
-// depth: 34
+// depth: 200
 // cover: 34
 // unbounded: no: the counters would have to be tied to the time since the last edge
 // look: state = u_dut.state

@@ -8,7 +8,7 @@
 // clocks: many
 // depth: 30
 // cover: 24
-// unbounded: induction 3
+// unbounded: reachability
 // look: dut_sel0 = u_dut.sel0_q
 // look: dut_sel1 = u_dut.sel1_q
 // look: dut_claim0 = u_dut.claim0_q

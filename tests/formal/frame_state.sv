@@ -9,7 +9,7 @@
 // clocks: one
 // depth: 8
 // cover: 8
-// unbounded: induction 1
+// unbounded: reachability
 // mutation: clb/clb_state.sv | if (e1_i)       state_d | if (e1_i && !e0_i) state_d
 // mutation: clb/clb_state.sv | if (e0_i) state_d = clb_pkg::RECEIVE; | if (e0_i && !e1_i) state_d = clb_pkg::RECEIVE;
 // mutation: clb/clb_state.sv | if (clear_i) state_d | if (clear_i && !e0_i) state_d

@@ -10,9 +10,9 @@
 // claim: the host sees no switch from its write of HOLDBANK on, and sees SWBANK at its write; at
 //   any phase of the clocks, with writes as close as can be
 // clocks: many
-// depth: 36
+// depth: 24
 // cover: 34
-// unbounded: no: frames' ends, both halves and the crossing together are bounded only
+// unbounded: reachability
 // mutation: mb4/regs/mb4_bank_ctrl.sv | base_q != kept; | 1'b0 != 1'b0;
 // mutation: mb4/regs/mb4_instr_reg.sv | (pending_o && hold_q) ? kept_q : base_i; | base_i;
 // mutation: mb4/regs/mb4_instr_reg.sv | ? base : newest_i; | ? base_i : newest_i;

@@ -12,7 +12,7 @@
 // clocks: many
 // depth: 24
 // cover: 24
-// unbounded: induction 2
+// unbounded: reachability
 // look: dut_sync0 = u_dut.gen_bit[0].u_sync.sync_q
 // look: dut_sync1 = u_dut.gen_bit[1].u_sync.sync_q
 // look: dut_taken = u_dut.taken_q

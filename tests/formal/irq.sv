@@ -10,7 +10,7 @@
 // clocks: many
 // depth: 24
 // cover: 24
-// unbounded: no: the events on their way are counted from the reset
+// unbounded: reachability
 // look: dut_wait = u_dut.wait_q
 // look: dut_held = u_dut.held_q
 // look: dut_req = u_dut.req_q

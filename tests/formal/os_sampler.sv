@@ -10,7 +10,7 @@
 // clocks: one
 // depth: 40
 // cover: 40
-// unbounded: no: the samples so far would have to be tied to those of the bench
+// unbounded: reachability
 // mutation: biss/biss_os_sampler.sv | {1'b0, ones} + 4'd4 | {1'b0, ones} + 4'd5
 // mutation: biss/biss_os_sampler.sv | sl && !(first_low_i && low_q && !begins_q) | sl && !(first_low_i && low_q)
 // mutation: biss/biss_os_sampler.sv | (begins_q ? 3'd0 : ones_q) | ones_q

@@ -13,7 +13,7 @@
 // clocks: many
 // depth: 16
 // cover: 20
-// unbounded: induction 3
+// unbounded: reachability
 // look: dut_wr = u_dut.wr_q
 // look: dut_gray = u_dut.wr_gray_q
 // look: dut_rd = u_dut.rd_q

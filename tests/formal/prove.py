@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The openmb4 authors
 # SPDX-License-Identifier: Apache-2.0
-"""Proofs of single blocks: Yosys, yosys-smtbmc and z3; bounded search, cover points, induction.
+"""Proofs of single blocks: Yosys and ABC; bounded search, cover points, reachability or induction (yosys-smtbmc, z3).
 
   prove.py NAME FOLDER [--bounds|--mutations|--short] [PRESET]   one proof; FOLDER is for what the tools leave;
                                    --short: of the mutations only the first; PRESET: modules with the parameter
@@ -16,12 +16,13 @@ that begins with `//   ` goes on with the one before:
   depth      steps that the bounded proof looks at, from reset
   cover      steps within which each cover point must be reached, so that nothing holds by being
              impossible
-  unbounded  "induction K": K-step induction; or "no: REASON"
+  unbounded  "reachability": ABC's PDR; "induction K": K-step induction by z3; or "no: REASON"
   checks     there: the block's own checks depend on more than the bench, and are left out
   look       WIRE = PATH: the bench's undriven WIRE shows a signal inside the block
   keep       FILE | OLD | NEW: a smaller size for the proof; OLD occurs once
   mutation   FILE | OLD | NEW: with this change of the RTL (OLD occurs once) the proof fails
-"""
+
+ABC says in which step a claim fails; yosys-smtbmc and z3 must then find the same step, and tell the claim's name."""
 
 import re
 import shutil
@@ -41,7 +42,18 @@ TWO_LINES = 0x40
 PARAMETERS = {"BissB": 0x20, "Ssi": 0x10, "Mo": 0x08, "Control": 0x04, "FreeCrc": 0x01}
 SOLVER = "z3"
 STEPS = 10
-PACKAGE = {"z3": "z3", "yosys-smtbmc": "yosys"}
+PACKAGE = {"z3": "z3"}  # the others are of the package yosys
+FAR = 60
+# A cover point as the claim that it is never reached.
+COVERS = """(* techmap_celltype = "$cover" *)
+module cover_is_never_reached (input A, EN);
+  \\$assert claim (.A(!A), .EN(EN));
+endmodule
+"""
+# From words to AND gates and flops.
+GATES = ["memory_map", "opt -full", "setundef -undriven -anyseq", "opt_clean", "techmap", "opt -full", "simplemap",
+         "dffunmap", "opt_clean", "abc -g AND -fast", "opt_clean"]
+AIGER = "write_aiger -I -B -zinit"
 
 
 class Proof:
@@ -119,7 +131,11 @@ def model(proof, folder, mutation=None):
                 "opt_clean", "check",
                 "memory -nomap", "opt -full",
                 "clk2fflogic" if proof.one("clocks") == "many" else "async2sync",
-                "dffunmap", "opt_clean", "check", "write_smt2 -wires model.smt2"]
+                "dffunmap", "opt_clean", "check", "write_smt2 -wires model.smt2",
+                *GATES, "design -save gates", "chformal -cover -remove", f"{AIGER} claims.aig",
+                "design -load gates", "chformal -assert -remove", "techmap -map covers.v", "simplemap", "opt_clean",
+                f"{AIGER} covers.aig"]
+    (folder / "covers.v").write_text(COVERS, encoding="utf-8")
     status, text = yosys.execute(commands, folder, "model")
     if status != 0:
         raise SystemExit(text)
@@ -133,11 +149,30 @@ def smtbmc(folder, *arguments):
                         "--unroll", *arguments, "model.smt2"], cwd=folder)
 
 
+def abc(folder, file, command):
+    """What ABC says about the claims of a file under its assumptions."""
+    status, text = project.run([project.tool("yosys-abc"), "-c", f"read_aiger {file}; fold; strash; {command}"],
+                               cwd=folder)
+    return text if status == 0 else f"{command} ends with {status}\n"
+
+
+def failed_step(folder, step):
+    """The claim that fails in this step, by the other solver; reachability may need far more steps than it can look at."""
+    if step > FAR:
+        return f"Assert failed in ABC: a claim in step {step}"
+    _, text = smtbmc(folder, "-t", f"{step}:1:{step + 1}", "--dump-vcd", "trace.vcd")
+    if "Assert failed" not in text:
+        text = f"ABC finds a claim that fails in step {step}, {SOLVER} finds none:\n{text}"
+    return text
+
+
 def bounded(proof, folder):
-    # Several steps in one question: the solver starts anew for each.
-    status, text = smtbmc(folder, "-t", f"0:{STEPS}:{proof.one('depth')}",
-                          "--dump-vcd", "trace.vcd")
-    return status == 0 and "Status: PASSED" in text, text
+    depth = int(proof.one("depth"))
+    text = abc(folder, "claims.aig", f"bmc3 -F {depth}")
+    failed = re.search(r"was asserted in frame (\d+)", text)
+    if failed:
+        return False, failed_step(folder, int(failed.group(1)))
+    return f"No output asserted in {depth} frames" in text, text
 
 
 def unbounded(proof, folder):
@@ -145,13 +180,21 @@ def unbounded(proof, folder):
     if how[0] == "induction":
         status, text = smtbmc(folder, "-i", "-t", how[1])
         return status == 0 and "Status: PASSED" in text, text
+    if how[0] == "reachability":
+        text = abc(folder, "claims.aig", "pdr")
+        failed = re.search(r"was asserted in frame (\d+)", text)
+        if failed:
+            return False, failed_step(folder, int(failed.group(1)))
+        return "Property proved" in text, text
     return True, ""
 
 
 def cover(proof, folder):
-    status, text = smtbmc(folder, "-c", "-t", proof.one("cover"))
-    reached = len(re.findall(r"Reached cover", text))
-    return status == 0 and reached > 0 and "Unreached" not in text, text
+    """Each cover point is reached: each claim that it is not fails, within the steps."""
+    points = int(re.search(r"i/o = *\d+/ *(\d+)", abc(folder, "covers.aig", "print_stats")).group(1))
+    unreached = [point for point in range(points) if "was asserted in frame" not in
+                 abc(folder, "covers.aig", f"cone -s -O {point}; bmc3 -F {proof.one('cover')}")]
+    return points > 0 and not unreached, f"{points} cover points, not reached: {unreached}"
 
 
 def mutated(proof, folder, number, mutation):
@@ -206,7 +249,7 @@ def table():
         proof = Proof(path.stem)
         step = "instants" if proof.one("clocks") == "many" else "clocks"
         how = proof.one("unbounded")
-        how = re.sub(r"induction (\d+)", r"yes, \1-step induction", how)
+        how = "yes, reachability" if how == "reachability" else re.sub(r"induction (\d+)", r"yes, \1-step induction", how)
         lines.append(f"| [`{proof.name}`](../tests/formal/{path.name}) | {proof.one('claim')} | "
                      f"{proof.one('depth')} {step} | {how} | {len(proof.changes('mutation'))} |")
     return "\n".join(lines)

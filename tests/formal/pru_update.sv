@@ -8,7 +8,7 @@
 // clocks: one
 // depth: 8
 // cover: 8
-// unbounded: induction 2
+// unbounded: reachability
 // mutation: pru/pru_memory.sv | if (update_i) begin | if (update_i != absent_i) begin
 // mutation: pru/pru_memory.sv | whole && !found_i.crc_bad | whole
 // mutation: pru/pru_memory.sv | acked && !found_i.late | acked

@@ -10,7 +10,7 @@
 // clocks: one
 // depth: 12
 // cover: 40
-// unbounded: induction 3
+// unbounded: reachability
 // look: stored = u_dut.stored_q
 // mutation: clb/clb_fifo.sv | full   = level_q[4]; | full   = level_q == 5'd15;
 // mutation: clb/clb_fifo.sv | pop    = pop_i && any; | pop    = pop_i;

@@ -9,7 +9,7 @@
 // clocks: one
 // depth: 12
 // cover: 8
-// unbounded: induction 1
+// unbounded: reachability
 // mutation: mb4/ctrl/mb4_status_flags.sv | if (frame_i.scd_en)    n_scderr_d = !frame_i.scd_bad;
 //   | if (frame_i.scd_bad) n_scderr_d = 1'b0;
 // mutation: mb4/ctrl/mb4_status_flags.sv | fail_q && !bank_i.swapped | fail_q && !frame_i.clear

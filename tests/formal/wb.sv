@@ -13,7 +13,7 @@
 // clocks: one
 // depth: 24
 // cover: 16
-// unbounded: induction 10
+// unbounded: reachability
 // mutation: common/enc_wb.sv | busy_q   <= strobe && !done; | busy_q   <= strobe;
 // mutation: common/enc_wb.sv | Pipelined ? accept_q && strobe && !error_q
 //   | Pipelined ? accept_q && !error_q
