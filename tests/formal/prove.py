@@ -43,7 +43,7 @@ PARAMETERS = {"BissB": 0x20, "Ssi": 0x10, "Mo": 0x08, "Control": 0x04, "FreeCrc"
 SOLVER = "z3"
 STEPS = 10
 PACKAGE = {"z3": "z3"}  # the others are of the package yosys
-FAR = 60
+FAR = 30
 # A cover point as the claim that it is never reached.
 COVERS = """(* techmap_celltype = "$cover" *)
 module cover_is_never_reached (input A, EN);
