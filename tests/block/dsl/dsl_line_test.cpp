@@ -29,7 +29,6 @@ namespace dsl = mb4::sim::dsl;
 
 constexpr unsigned kVertical = 8;
 constexpr unsigned kFrameTicks = 864;
-constexpr unsigned kMissingLimit = 31;
 
 // ---- Ports --------------------------------------------------------------------------------------
 
@@ -138,7 +137,7 @@ class Judge {
     }
     missing_ = acceleration_good() ? 0 : missing_ + 1;
     return (error1 ? 8U : 0U) | (good1 ? 4U : 0U) | (error2 ? 2U : 0U) |
-           (missing_ >= kMissingLimit ? 1U : 0U);
+           (missing_ >= rules_.acceleration_limit ? 1U : 0U);
   }
   void begin() { missing_ = 0; }
 
@@ -202,9 +201,12 @@ class Encoder {
     drift_ = wild_ ? static_cast<int>(random_.below(25)) - 12 : 0;
     if (fate == 1) wrong_frame_ = 9 + random_.below(9);
     if (fate == 5) wrong_frame_ = random_.below(34);
+    if (fate == 6) wrong_frame_ = 18 + random_.below(16);
     wrong_identity_ = fate == 2;
     vsync_after_ = 1 + random_.below(6);
-    if (fate == 3) vsync_after_ = rules_.vsync_limit + random_.below(4);
+    // Without a limit it waits for more than its counter can count.
+    const unsigned limit = rules_.vsync_limit == 0 ? 256 : rules_.vsync_limit;
+    if (fate == 3) vsync_after_ = limit + random_.below(4);
     marks_ = fate == 4;
     life_ = 10 + random_.below(marks_ ? 30 : 300);
     constexpr unsigned kRare[] = {0, 0, 60, 15, 4};
@@ -219,7 +221,13 @@ class Encoder {
     const bool disturbed = wild_ || (rare_ != 0 && state == LinkState::kRun);
     if (silent_ || (disturbed && dice(400))) return mb4test::DslSamples(Receiver::kSamples, true);
     if (disturbed && dice(200)) return noise();
-    return mb4test::samples_of(answer, timing_, random_);
+    auto samples = mb4test::samples_of(answer, timing_, random_);
+    // Edges all over a slot, half of the time beside the sample of its bit.
+    if (rare_ != 0 && state == LinkState::kRun && dice(30)) {
+      const unsigned slot = 14 + random_.below(50);
+      for (unsigned i = random_.below(2); i < 8; i += 2) samples[slot * 8 + i].flip();
+    }
+    return samples;
   }
 
  private:
@@ -300,8 +308,13 @@ class Encoder {
     const std::uint16_t word = dsl::with_check(static_cast<int>(random_.below(2048)) - 1024);
     // The encoder says that it has no position.
     const bool marked = running && marks_ && running_ > life_;
-    const unsigned d = marked ? coder.special(0xFD) : byte(static_cast<std::uint8_t>(word >> 8U));
-    const unsigned e = marked ? coder.special(0xFD) : byte(static_cast<std::uint8_t>(word));
+    const bool both = bad && dice(3);  // words of the acceleration are anything
+    const auto half = [&](unsigned value) {
+      if (marked) return coder.special(0xFD);
+      return both ? random_.below(1024) : byte(static_cast<std::uint8_t>(value));
+    };
+    const unsigned d = half(word >> 8U);
+    const unsigned e = half(word & 0xFFU);
     const unsigned f = k28 ? coder.special(bytes_[1][place_]) : byte(bytes_[1][place_]);
     Answer answer = join({a, b, c, d, e}, random_.below(2), f);
     if (bad && dice(3)) answer ^= Answer{1} << random_.below(kAnswerBits);
@@ -592,6 +605,7 @@ class DslLineBlock : public testing::TestWithParam<SampleRule> {
     rules.rssi_table = random.below(2) != 0;
     rules.rx_start = random.below(16);
     rules.start_blocks = random.below(27);
+    rules.acceleration_limit = 1 + random.below(31);
     constexpr unsigned kLimits[] = {0, 1, 5, 64, 255};
     rules.vsync_limit = kLimits[random.below(5)];
     return rules;

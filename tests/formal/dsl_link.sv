@@ -1,0 +1,168 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The states of a DSL link (dsl_link). Frames are as long as they like; windows are in frames with an
+// answer only, and each of them is judged once, before its end, after its words and its done_i.
+//
+// claim: plan and purpose are constant in a frame and those of free run; each state has its
+//   number of frames; each frame that does not answer as it should, and no other, ends the link,
+//   with its reason; LINK is 1 from a good identity to that end; a gap is never asked for in a gap
+// clocks: one
+// depth: 20
+// cover: 30
+// unbounded: induction 2
+// keep: dsl/dsl_link.sv | RESET_LAST = 8'd1; | RESET_LAST = 8'd0;
+// keep: dsl/dsl_link.sv | SYNC_LAST  = 8'd15; | SYNC_LAST  = 8'd0;
+// keep: dsl/dsl_link.sv | START_LAST = 8'd8; | START_LAST = 8'd1;
+// look: dut_count = u_dut.count_q
+// look: dut_gap = u_dut.gap_q
+// look: dut_wrong = u_dut.wrong_q
+// look: dut_vsync = u_dut.vsync_q
+// mutation: dsl/dsl_link.sv | last = count_q == START_LAST; | last = count_q >= 8'd2;
+// mutation: dsl/dsl_link.sv | (hold_i && state_q != dsl_pkg::GAP_STATE) | hold_i
+// mutation: dsl/dsl_link.sv | && !gap_o && !restart; | && !gap_o;
+// mutation: dsl/dsl_link.sv | if (!asks) wrong_d = !match_i; | if (!asks) wrong_d = !match_i && wrong_q;
+// mutation: dsl/dsl_link.sv | fails = !good_i || missing_i; | fails = !good_i;
+// mutation: dsl/dsl_link.sv | if (begin_i) begin | if (begin_i || restart) begin
+// mutation: dsl/dsl_link.sv | assign restart = judged_i && fails && !gap_o; | assign restart = judged_i && fails;
+// mutation: dsl/dsl_link.sv | count == {1'b0, quirks_i.vsync_limit} | count_q == quirks_i.vsync_limit
+
+module proof (
+  input logic             clk_i,
+  input logic             rst_ni,
+  input dsl_pkg::quirks_t quirks_i,
+  input logic             hold_i, begin_i,
+  input logic             done_i, match_i,
+  input logic             valid_i,
+  input logic [2:0]       number_i,
+  input dsl_pkg::word_t   word_i,
+  input logic             judged_i, good_i, missing_i
+);
+
+  localparam logic [3:0] GAP = 4'd0, RESET = 4'd1, SYNC = 4'd2, START = 4'd3, LEARN = 4'd4,
+                         CHECK = 4'd5, IDENTITY = 4'd6, VSYNC = 4'd7, RUN = 4'd8;
+
+  dsl_pkg::plan_t plan;
+  logic           gap, forget, start, linked, begins, running;
+  logic [1:0]     purpose;
+  logic [2:0]     place, reason;
+  logic [3:0]     state;
+  logic [15:0]    resets;
+  logic [19:0]    identity;
+
+  dsl_link u_dut (
+    .clk_i, .rst_ni, .quirks_i, .hold_i, .begin_i, .plan_o (plan), .gap_o (gap), .forget_o (forget),
+    .purpose_o (purpose), .done_i, .match_i, .valid_i, .number_i, .word_i, .judged_i, .good_i,
+    .missing_i, .start_o (start), .linked_o (linked), .begins_o (begins), .running_o (running),
+    .place_o (place), .state_o (state), .reason_o (reason), .resets_o (resets),
+    .identity_o (identity)
+  );
+
+  wire [7:0] dut_count;
+  wire       dut_gap, dut_wrong, dut_vsync;
+
+  logic             started = 1'b0;
+  logic             live_q;                     // the clock before had no reset
+  dsl_pkg::quirks_t quirks_q;
+  dsl_pkg::plan_t   plan_q;
+  logic [1:0]       purpose_q;
+  logic [3:0]       state_q;
+  logic             begin_q, gap_q, linked_q, hold_q, ended_q, judged_q;
+  logic [2:0]       reason_q, expected_q;
+  logic [15:0]      resets_q;
+  logic             done_seen_q, judged_seen_q; // in this frame
+  logic             wrong_q;                    // the pattern of this frame
+  logic             vsync_q;                    // S_PAR of this frame has it
+  logic             bad;
+  logic [7:0]       waited_q;                   // frames in VSYNC
+
+  assign bad = state == VSYNC ? !vsync_q && waited_q + 9'd1 == quirks_i.vsync_limit
+             : state == RUN   ? !good_i || missing_i
+             : state == IDENTITY ? dut_wrong : wrong_q;
+
+  always @(posedge clk_i) begin
+    started   <= 1'b1;
+    live_q    <= rst_ni;
+    quirks_q  <= quirks_i;
+    plan_q    <= plan;
+    purpose_q <= purpose;
+    state_q   <= state;
+    begin_q   <= begin_i;
+    gap_q     <= gap;
+    hold_q    <= hold_i;
+    linked_q  <= linked;
+    reason_q  <= reason;
+    resets_q  <= resets;
+    judged_q  <= judged_i;
+    ended_q   <= judged_i && bad && !gap;
+    expected_q <= state == RUN ? (good_i ? 3'd7 : 3'd6) : 3'(state - 4'd2);
+    if (begin_i || !rst_ni) begin
+      {done_seen_q, judged_seen_q, wrong_q, vsync_q} <= 4'd0;
+    end else begin
+      if (done_i) begin
+        done_seen_q <= 1'b1;
+        wrong_q     <= !match_i;
+      end
+      if (judged_i) judged_seen_q <= 1'b1;
+      if (valid_i && number_i == 3'd1) vsync_q <= word_i.data[7] && !word_i.error;
+    end
+    if (begin_i) waited_q <= state == VSYNC ? waited_q + 8'd1 : 8'd0;
+    if (!rst_ni) waited_q <= 8'd0;
+  end
+
+  always @* begin
+    if (!started) assume (!rst_ni);
+    if (started) assume (quirks_i == quirks_q);
+    if (state < START) assume (!done_i && !judged_i && !valid_i);
+    if (done_seen_q || done_i) assume (!valid_i);
+    if (done_seen_q) assume (!done_i);
+    if (judged_i) assume (done_seen_q && !judged_seen_q && !begin_i);
+    if (begin_i) assume (!done_i && !valid_i && (state < START || judged_seen_q));
+  end
+
+  always @* if (started && rst_ni) begin
+    States_A: assert (state <= RUN && running == (state == RUN));
+    FreeRun_A: assert (plan.extra == 4'd0 && plan.rest == 3'd0 && plan.added == 4'd0);
+    if (state == RESET || state == SYNC) NoAnswer_A: assert (!plan.answer);
+    if (state >= START) Answer_A: assert (plan.answer);
+    if (state <= SYNC || state == CHECK || state == IDENTITY) One_A: assert (dut_count == 8'd0);
+    if (state == START || state == LEARN) Two_A: assert (dut_count <= 8'd1);
+    if (state == VSYNC) Waited_A: assert (dut_count == waited_q);
+    if (state == VSYNC && quirks_i.vsync_limit != 8'd0 && !gap)
+      Limit_A: assert (waited_q < quirks_i.vsync_limit);
+    if (state == GAP) Begun_A: assert (!dut_gap);
+    if (linked) Linked_A: assert (state >= IDENTITY && !dut_gap);
+    // For the induction.
+    if (state >= START && state <= CHECK && done_seen_q) Pattern_A: assert (dut_wrong == wrong_q);
+    if (state == VSYNC) Vsync_A: assert (dut_vsync == vsync_q);
+    if (state != VSYNC) NoVsync_A: assert (!dut_vsync);
+    if (!(state >= START && done_seen_q) && state != IDENTITY) NotYet_A: assert (!dut_wrong);
+    if (state >= VSYNC || (state == IDENTITY && judged_seen_q)) Link_A: assert (linked || dut_gap);
+    if (state >= START && state <= CHECK && judged_seen_q && wrong_q) Asked_A: assert (dut_gap);
+    if (state == VSYNC && judged_seen_q && !vsync_q && quirks_i.vsync_limit != 8'd0 &&
+        waited_q + 9'd1 == quirks_i.vsync_limit) Late_A: assert (dut_gap);
+    if (judged_seen_q) Done_A: assert (done_seen_q);
+    if (state < START) None_A: assert (!done_seen_q && !judged_seen_q);
+  end
+
+  always @* if (started && rst_ni && live_q) begin
+    if (!begin_q) begin
+      Plan_A: assert (plan == plan_q && purpose == purpose_q && state == state_q);
+    end else begin
+      Next_A: assert (gap_q ? state == GAP : state == state_q || state == state_q + 4'd1);
+    end
+    Ended_A:  assert (resets == resets_q + {15'd0, ended_q});
+    Reason_A: assert (reason == (ended_q ? expected_q : reason_q));
+    if (ended_q) Gap_A: assert (gap && !linked);
+    if (!ended_q && !hold_q && !hold_i && !gap_q) NoGap_A: assert (!gap);
+    if (linked && !linked_q) Begins_A: assert (begins && judged_q && state == IDENTITY);
+    if (!linked && linked_q) Falls_A: assert (ended_q || gap_q);
+  end
+
+  always @(posedge clk_i) if (rst_ni) begin
+    Run_C:     cover (state == RUN && linked && plan.parameter_byte == 8'h90);
+    Vsync_C:   cover (state == VSYNC && ended_q);
+    Learn_C:   cover (state == LEARN && ended_q);
+  end
+
+endmodule
