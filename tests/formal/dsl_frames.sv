@@ -2,18 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Frames of a DSL master in free run (dsl_tx): no extra ones, so that each bit has its number. The
-// plan of each frame is any one of these, and constant in its frame; dsl_link proves that the plans
-// of the link are such. The bounded search looks at the first frame, a RESET symbol, with a bit in
-// each clock; in the induction symbol, stuffing, gaps and clocks are free.
+// plan of each frame is any one of these, and constant in its frame; dsl_states proves that the plans
+// of the link are such. The bits last as long as they like.
 //
 // claim: in free run D of the equaliser is between -2 and 0 with any M_PAR; the driver is off in bits
 //   26 to 99 of each frame with an answer and on in all its other bits; a gap follows if one is
 //   asked for at the end, else a frame
 // clocks: one
-// depth: 20
-// cover: 31
+// depth: 150
+// cover: 150
 // unbounded: induction 1
-// keep: dsl/dsl_tx.sv | left_q      <= GAP_LAST; | left_q      <= 7'd1;
 // look: dut_field = u_dut.field_q
 // look: dut_left = u_dut.left_q
 // look: dut_disparity = u_dut.disparity_q
@@ -51,12 +49,10 @@ module proof (
   logic           is_gap_q;   // no frame
   logic [6:0]     at_q;       // number of the bit in its frame, 127 at most
   dsl_pkg::plan_t plan_q;
-  logic [6:0]     age_q = 7'd0;
   always @(posedge clk_i) begin
     started  <= 1'b1;
     begins_q <= begins;
     plan_q   <= plan_i;
-    if (age_q != MANY) age_q <= age_q + 7'd1;
     if (!rst_ni) begin
       begins_q <= 1'b1;
       is_gap_q <= 1'b1;
@@ -73,10 +69,6 @@ module proof (
     if (!started) assume (!rst_ni);
     assume (plan_i.extra == 4'd0 && plan_i.rest == 3'd0 && plan_i.added == 4'd0);
     if (started && !begins_q) assume (plan_i == plan_q);
-    if (age_q != MANY) begin
-      assume (plan_i.parameter_byte == 8'h1F && plan_i.blocks == 5'd0);
-      assume (rst_ni == started && slot_i && !gap_i);
-    end
   end
 
   // Where each field of a frame is.
@@ -113,6 +105,8 @@ module proof (
 
   always @(posedge clk_i) if (rst_ni) begin
     Window_C: cover (!is_gap_q && plan_i.answer && at_q == 7'd26);
+    Twice_C:  cover (is_gap_q && begins_q && gap_i);
+    Stuffed_C: cover (!is_gap_q && begins && plan_i.blocks == 5'd1);
     Filled_C: cover (!is_gap_q && !plan_i.answer && at_q == 7'd26 && dut_disparity == 8'hFE);
   end
 

@@ -6,8 +6,8 @@
 // at first: what holds here needs no history. Each frame with an answer is judged before its end.
 //
 // claim: from any state, reachable or not, each frame brings the link or a restart nearer: at most
-//   7 + 7 * 256 frames, 53 and the limit of VSYNC from those that are reached; without a limit it
-//   waits for VSYNC alone
+//   563 frames, 53 and the limit of VSYNC from those that are reached; without a limit it waits for
+//   VSYNC alone
 // clocks: one
 // depth: 12
 // cover: 12

@@ -8,17 +8,14 @@
 //   number of frames; each frame that does not answer as it should, and no other, ends the link,
 //   with its reason; LINK is 1 from a good identity to that end; a gap is never asked for in a gap
 // clocks: one
-// depth: 20
-// cover: 30
+// depth: 60
+// cover: 160
 // unbounded: induction 2
-// keep: dsl/dsl_link.sv | RESET_LAST = 8'd1; | RESET_LAST = 8'd0;
-// keep: dsl/dsl_link.sv | SYNC_LAST  = 8'd15; | SYNC_LAST  = 8'd0;
-// keep: dsl/dsl_link.sv | START_LAST = 8'd8; | START_LAST = 8'd1;
 // look: dut_count = u_dut.count_q
 // look: dut_gap = u_dut.gap_q
 // look: dut_wrong = u_dut.wrong_q
 // look: dut_vsync = u_dut.vsync_q
-// mutation: dsl/dsl_link.sv | last = count_q == START_LAST; | last = count_q >= 8'd2;
+// mutation: dsl/dsl_link.sv | last = count_q == START_LAST; | last = count_q == START_LAST + 8'd1;
 // mutation: dsl/dsl_link.sv | (hold_i && state_q != dsl_pkg::GAP_STATE) | hold_i
 // mutation: dsl/dsl_link.sv | && !gap_o && !restart; | && !gap_o;
 // mutation: dsl/dsl_link.sv | if (!asks) wrong_d = !match_i; | if (!asks) wrong_d = !match_i && wrong_q;
@@ -69,6 +66,7 @@ module proof (
   logic [3:0]       state_q;
   logic             begin_q, gap_q, linked_q, hold_q, ended_q, judged_q;
   logic [2:0]       reason_q, expected_q;
+  logic [7:0]       count_q;
   logic [15:0]      resets_q;
   logic             done_seen_q, judged_seen_q; // in this frame
   logic             wrong_q;                    // the pattern of this frame
@@ -87,6 +85,7 @@ module proof (
     plan_q    <= plan;
     purpose_q <= purpose;
     state_q   <= state;
+    count_q   <= dut_count;
     begin_q   <= begin_i;
     gap_q     <= gap;
     hold_q    <= hold_i;
@@ -110,6 +109,17 @@ module proof (
     if (!rst_ni) waited_q <= 8'd0;
   end
 
+  // Number of a state's last frame; VSYNC has none.
+  function automatic logic [7:0] last_of(logic [3:0] which);
+    case (which)
+      RESET:        last_of = 8'd1;
+      SYNC, CHECK:  last_of = 8'd15;
+      START, LEARN: last_of = 8'd8;
+      VSYNC:        last_of = count_q;
+      default:      last_of = 8'd0;
+    endcase
+  endfunction
+
   always @* begin
     if (!started) assume (!rst_ni);
     if (started) assume (quirks_i == quirks_q);
@@ -125,8 +135,10 @@ module proof (
     FreeRun_A: assert (plan.extra == 4'd0 && plan.rest == 3'd0 && plan.added == 4'd0);
     if (state == RESET || state == SYNC) NoAnswer_A: assert (!plan.answer);
     if (state >= START) Answer_A: assert (plan.answer);
-    if (state <= SYNC || state == CHECK || state == IDENTITY) One_A: assert (dut_count == 8'd0);
-    if (state == START || state == LEARN) Two_A: assert (dut_count <= 8'd1);
+    if (state == GAP || state == IDENTITY) One_A: assert (dut_count == 8'd0);
+    if (state == RESET) Two_A: assert (dut_count <= 8'd1);
+    if (state == START || state == LEARN) Nine_A: assert (dut_count <= 8'd8);
+    if (state == SYNC || state == CHECK) Sixteen_A: assert (dut_count <= 8'd15);
     if (state == VSYNC) Waited_A: assert (dut_count == waited_q);
     if (state == VSYNC && quirks_i.vsync_limit != 8'd0 && !gap)
       Limit_A: assert (waited_q < quirks_i.vsync_limit);
@@ -150,6 +162,7 @@ module proof (
       Plan_A: assert (plan == plan_q && purpose == purpose_q && state == state_q);
     end else begin
       Next_A: assert (gap_q ? state == GAP : state == state_q || state == state_q + 4'd1);
+      if (!gap_q && state != state_q) Length_A: assert (count_q == last_of(state_q));
     end
     Ended_A:  assert (resets == resets_q + {15'd0, ended_q});
     Reason_A: assert (reason == (ended_q ? expected_q : reason_q));
