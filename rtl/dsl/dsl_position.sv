@@ -6,7 +6,7 @@
 // and a memory of 256 bytes.
 //
 // Clock domain: core. Work on a running frame begins with the second word of its acceleration and
-// waits for answer_i.ends. tell_o follows it by 60 to 550 clocks: the record of the frame is
+// waits for answer_i.ends. tell_o follows it by 60 to 700 clocks: the record of the frame is
 // complete. From then on lost_o is that of this frame; it is 1 without a link. A new link
 // (answer_i.begins) clears all but frames and time, in 900 clocks; so does the reset, with them.
 //
@@ -135,7 +135,7 @@ module dsl_position (
       ready_q <= 1'b0;
       step_q  <= '0;
     end else begin
-      ready_q <= 1'b1;
+      ready_q <= ready_q || !stores;
       step_q  <= step_d;
     end
   end

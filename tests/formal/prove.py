@@ -126,7 +126,8 @@ def model(proof, folder, mutation=None):
     commands = [f"read_verilog -defer -sv {formal} -I{project.INCLUDE} " +
                 " ".join(str(f) for f in files),
                 f"read_verilog -sv -formal {'' if two_lines else '-DONE_LINE'} {proof.path}",
-                "hierarchy -check -top proof", "proc", "flatten", "cd proof",
+                # A read-only memory made of a case would hold anything in the induction.
+                "hierarchy -check -top proof", "proc -norom", "flatten", "cd proof",
                 *[f"connect -nounset -set {wire} {path}" for wire, path in looks], "cd",
                 "opt_clean", "check",
                 "memory -nomap", "opt -full",
