@@ -151,6 +151,7 @@ class Model:
         self.name = name
         self.top = entry.need("top", str)
         self.parameters = entry.table("parameters", int)
+        self.takes = entry.take("takes", str)
         entry.end()
 
 
@@ -159,6 +160,7 @@ class Measured:
         self.name, self.master = name, master
         self.maker = master.path(entry, "maker", entry.need("maker", str))
         self.programs = entry.texts("programs")
+        self.blocks = entry.texts("blocks")
         self.tests = entry.take("tests", str)
         self.only = entry.texts("only")
         for one in self.only:
@@ -172,6 +174,8 @@ class Measured:
             entry.wrong("programs", "names no program")
         if not self.models:
             entry.wrong("models", "there is none")
+        if bool(self.blocks) != any(model.takes for model in self.models.values()):
+            entry.wrong("blocks", "goes with models that have `takes`")
         entry.end()
 
     def counts(self, path):
@@ -366,6 +370,9 @@ def cmake(masters):
             lines += [put(f"MB4_MEASURED_{design.name}_SAYS", models, design.only)]
             lines += [put(f"MB4_MEASURED_{design.name}_MASTER", master.name),
                       put(f"MB4_MEASURED_{design.name}_PROGRAMS", *design.programs),
+                      put(f"MB4_MEASURED_{design.name}_BLOCKS", *design.blocks),
+                      put(f"MB4_MEASURED_{design.name}_TAKES",
+                          *[f"{model.name}={model.takes}" for model in design.models.values() if model.takes]),
                       put(f"MB4_MEASURED_{design.name}_MAKER", design.maker),
                       put(f"MB4_MEASURED_{design.name}_PUBLIC", *([design.public] if design.public else [])),
                       put(f"MB4_MEASURED_{design.name}_MODELS", *design.models)]
@@ -414,7 +421,7 @@ def main():
         if design is None:
             print(f"{options.file.name}: no design '{options.measured}' in `measured` of a master", file=sys.stderr)
             return 1
-        print(" ".join(design.programs), design.tests or "-", sep="\n")
+        print(" ".join(design.programs + design.blocks), design.tests or "-", sep="\n")
         return 0
     if options.cmake:
         print(cmake(masters), end="")

@@ -51,6 +51,8 @@ WRONG = (
      "toy: measured.one: programs: names no program"),
     ('[toy]\nwhat = "a"\nlist = "toy.f"\nmeasured.one = {maker = "toy.f", programs = ["a"], models.a = {top = "none"}}\n',
      "toy: measured.one.models.a.top: the list has no module none"),
+    ('[toy]\nwhat = "a"\nlist = "toy.f"\nmeasured.one = {maker = "toy.f", programs = ["a"], blocks = ["b"], models.a = {top = "toy"}}\n',
+     "toy: measured.one: blocks: goes with models that have `takes`"),
     ('[toy]\nwhat = "a"\nlist = "toy.f"\nmeasured.one = {maker = "toy.f", programs = ["a"], goals = {toggle = 1}}\n',
      "toy: measured.one: goals.toggle: is none of line, branch, mutants"),
     ('[toy]\nwhat = "a"\nlist = "toy.f"\ntops.toy = {}\n[other]\nwhat = "a"\nlist = "toy.f"\ntops.toy = {}\n',

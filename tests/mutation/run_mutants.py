@@ -111,7 +111,7 @@ def of_design(options):
             raise SystemExit(f"run_mutants.py: no master '{options['--master']}' with measured designs; there are {', '.join(names)}")
         name = next(iter(master.measured))
     design, build = project.design(name), Path(options.get("--build", "build")).resolve()
-    programs = [str(build / "bin" / f"mutant_{name}_{program}") for program in design.programs]
+    programs = [str(build / "bin" / f"mutant_{name}_{program}") for program in design.programs + design.blocks]
     missing = [path for path in programs if not Path(path).exists()]
     if missing:
         raise SystemExit(f"run_mutants.py: {missing[0]} is missing; build the target mutants_{name}")
