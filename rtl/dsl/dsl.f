@@ -5,6 +5,9 @@
 -F ../common/common.f
 dsl_pkg.sv
 dsl_program_pkg.sv
+dsl_map_pkg.sv
+../../regmap/generated/dsl/dsl_regs_pkg.sv
+../../regmap/generated/dsl_page/dsl_page_regs_pkg.sv
 dsl_code_tx.sv
 dsl_code_rx.sv
 dsl_phy.sv
@@ -21,3 +24,6 @@ dsl_vertical.sv
 dsl_program.sv
 dsl_position.sv
 dsl_record.sv
+dsl_time.sv
+dsl_map.sv
+dsl_regs.sv

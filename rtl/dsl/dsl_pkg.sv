@@ -166,6 +166,16 @@ package dsl_pkg;
     logic [11:0] place;      // sample of the first bit, five bits behind the point
   } line_status_t;
 
+  // EVENT_H and EVENT_L.
+  typedef struct packed {
+    logic sum;
+    logic sce;
+    logic pos;
+    logic vpos;
+    logic prst;
+    logic qmlw;
+  } events_t;
+
   // What dsl_vertical tells dsl_position and the registers.
   typedef struct packed {
     logic       acceleration_good;  // of this frame

@@ -50,7 +50,7 @@
 
 /* ---- Registers ------------------------------------------------------------------------------- */
 
-#define DSL_PAGE_RESET_STATUS 0x00000000UL
+#define DSL_PAGE_RESET_STATUS 0x00000001UL
 #define DSL_PAGE_WMASK_STATUS 0x00000000UL
 #define DSL_PAGE_CONST_STATUS 0x00000000UL
 #define DSL_PAGE_RESET_POS_LO 0x00000000UL
@@ -189,7 +189,7 @@
 #define DSL_PAGE_POS_LOST_ADDR 0x100U
 #define DSL_PAGE_POS_LOST_SHIFT 0U
 #define DSL_PAGE_POS_LOST_MASK 0x01UL
-#define DSL_PAGE_POS_LOST_RESET 0x00UL
+#define DSL_PAGE_POS_LOST_RESET 0x01UL
 
 /* POS_LO, R */
 #define DSL_PAGE_POS_LO_ADDR 0x104U

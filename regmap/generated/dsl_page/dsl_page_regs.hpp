@@ -44,7 +44,7 @@ inline constexpr std::uint16_t kAddrTimeHigh = 0x198;  // Time, high word
 
 // ---- Registers: value after reset, bits that a host write reaches, constant bits ----------------
 
-inline constexpr std::uint32_t kResetStatus = 0x00000000;
+inline constexpr std::uint32_t kResetStatus = 0x00000001;
 inline constexpr std::uint32_t kWmaskStatus = 0x00000000;
 inline constexpr std::uint32_t kConstStatus = 0x00000000;
 inline constexpr std::uint32_t kResetPosLo = 0x00000000;
@@ -198,7 +198,7 @@ using VSYNC_SEEN = Field<0x100, 2, 1, Access::kReadOnly, 0>;
 // As LINK.
 using LINKED = Field<0x100, 1, 1, Access::kReadOnly, 0>;
 // The position is not certain now.
-using POS_LOST = Field<0x100, 0, 1, Access::kReadOnly, 0>;
+using POS_LOST = Field<0x100, 0, 1, Access::kReadOnly, 1>;
 // Bits 31 to 0 of the position.
 using POS_LO = Field<0x104, 0, 32, Access::kReadOnly, 0>;
 // Bits 63 to 32: the position is widened by its sign if it has one, else by 0.

@@ -49,7 +49,7 @@ package dsl_page_regs_pkg;
 
   // ---- Registers ------------------------------------------------------------------------------
 
-  localparam logic [31:0] RESET_STATUS = 32'h00000000;
+  localparam logic [31:0] RESET_STATUS = 32'h00000001;
   localparam logic [31:0] WMASK_STATUS = 32'h00000000;
   localparam logic [31:0] CONST_STATUS = 32'h00000000;
   localparam logic [31:0] RESET_POS_LO = 32'h00000000;
@@ -199,7 +199,7 @@ package dsl_page_regs_pkg;
   localparam logic [31:0] POS_LOST_LSB = 32'd0;
   localparam logic [31:0] POS_LOST_W = 32'd1;
   localparam logic [31:0] POS_LOST_MASK = 32'h00000001;
-  localparam logic [0:0] POS_LOST_RESET = 1'd0;
+  localparam logic [0:0] POS_LOST_RESET = 1'd1;
 
   // Bits 31 to 0 of the position.
   localparam logic [11:0] POS_LO_ADDR = 12'h104;

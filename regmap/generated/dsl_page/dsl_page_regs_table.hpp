@@ -45,7 +45,7 @@ inline constexpr std::array<FieldInfo, 59> kFields{{
      "The encoder has sent VSYNC."},
     {"LINKED", nullptr, 0x100, 1, 1, Access::kReadOnly, 0,
      "As LINK."},
-    {"POS_LOST", nullptr, 0x100, 0, 1, Access::kReadOnly, 0,
+    {"POS_LOST", nullptr, 0x100, 0, 1, Access::kReadOnly, 1,
      "The position is not certain now."},
     {"POS_LO", nullptr, 0x104, 0, 32, Access::kReadOnly, 0,
      "Bits 31 to 0 of the position."},
