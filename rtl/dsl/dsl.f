@@ -27,3 +27,4 @@ dsl_record.sv
 dsl_time.sv
 dsl_map.sv
 dsl_regs.sv
+dsl_core.sv

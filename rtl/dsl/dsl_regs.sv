@@ -84,7 +84,9 @@ module dsl_regs (
   logic               prst_q, oen_q;
   logic [7:0]         es_q;
   logic [4:0]         limit_q;
-  logic [11:0]        place_q;           // status_i.place moves while a frame ends
+  // Of the last answer: status_i.place moves while a frame ends, status_i.rssi with its edges.
+  logic [11:0]        place_q;
+  logic [3:0]         rssi_q;
   dsl_pkg::events_t   set, kept, events_q;
   logic [4:0]         irq_status, irq_enable;
   // Events.
@@ -168,7 +170,7 @@ module dsl_regs (
                                                events_q.pos, events_q.vpos, 1'b0, events_q.prst};
         dsl_map_pkg::EVENT_L:      register = {5'd0, events_q.qmlw, 2'd0};
         dsl_map_pkg::EDGES:        register = status_i.edges;
-        dsl_map_pkg::DELAY:        register = {status_i.rssi, place_q[11:8]};
+        dsl_map_pkg::DELAY:        register = {rssi_q, place_q[11:8]};
         dsl_map_pkg::CODE_VERSION:
           register = quirks_i.sdk_map ? SDK_VERSION : dsl_regs_pkg::RESET_CODE_VERSION;
         dsl_map_pkg::ENC_ID2:      register = {4'd0, status_i.identity[19:16]};
@@ -235,6 +237,7 @@ module dsl_regs (
       es_q     <= dsl_regs_pkg::RESET_SYNC_CTRL;
       limit_q  <= dsl_regs_pkg::THRESH_RESET;
       place_q  <= '0;
+      rssi_q   <= '0;
       events_q <= '0;
     end else begin
       if (store_sys)             prst_q <= low_lane[dsl_regs_pkg::PRST_LSB];
@@ -243,7 +246,10 @@ module dsl_regs (
       if (store_sys)   oen_q   <= low_lane[dsl_regs_pkg::OEN_LSB];
       if (store_sync)  es_q    <= high_lane;
       if (store_limit) limit_q <= quirks_i.sdk_map ? high_lane[4:0] : low_lane[4:0];
-      if (ended_i)     place_q <= status_i.place;
+      if (ended_i) begin
+        place_q <= status_i.place;
+        rssi_q  <= status_i.rssi;
+      end
       events_q <= kept | set;
     end
   end

@@ -18,13 +18,15 @@ namespace {
 
 namespace map = dsl::regs;
 namespace page = dsl::page;
+using dsl_registers::kGroups;
+using dsl_registers::kWords;
+using dsl_registers::Record;
 using dsl_registers::reset_words;
+using dsl_registers::WordOfRecord;
 
 constexpr unsigned kSdkBit = 1U << 26U;  // of dsl_pkg::quirks_t
-constexpr unsigned kGroups = 6;
 constexpr unsigned kNewest = 7;
 constexpr unsigned kSummary = 37;  // in a record
-using Record = std::array<std::uint8_t, 64>;
 
 // dsl_pkg::line_status_t, the last field first.
 struct Status {
@@ -257,7 +259,9 @@ TEST_P(DslRegsBlock, Status_IsOfNow) {
     m.lost_i = static_cast<CData>(random.below(2));
     pulse(m.ended_i);
     const unsigned place = status.place;
-    status.place = random.below(4096);  // it moves, what is shown stays
+    const unsigned rssi = status.rssi;
+    status.place = random.below(4096);  // they move, what is shown stays
+    status.rssi = random.below(16);
     const unsigned delay = place >> 8U;
     const unsigned error = told.safe1_error || told.safe2_error ? 1 : 0;
     EXPECT_EQ(read(page::kAddrStatus),
@@ -266,7 +270,7 @@ TEST_P(DslRegsBlock, Status_IsOfNow) {
                   (answer.running ? 4U : 0U) | (answer.linked ? 2U : 0U) | m.lost_i);
     EXPECT_EQ(read_byte(map::kAddrMasterQm), (answer.linked ? 0x80U : 0U) | status.quality);
     EXPECT_EQ(read_byte(map::kAddrEdges), status.edges);
-    EXPECT_EQ(read_byte(map::kAddrDelay), status.rssi << 4U | delay);
+    EXPECT_EQ(read_byte(map::kAddrDelay), rssi << 4U | delay);
     EXPECT_EQ(read_byte(map::kAddrEncId2), status.identity >> 16U);
     EXPECT_EQ(read_byte(map::kAddrEncId1), status.identity >> 8U & 0xFFU);
     EXPECT_EQ(read_byte(map::kAddrEncId0), status.identity & 0xFFU);
@@ -434,44 +438,11 @@ TEST_P(DslRegsBlock, Interrupts_OfFramesAndLosses) {
 
 // ---- Records ------------------------------------------------------------------------------------
 
-// Where the bytes of a word stand in the record (docs/dsl.md), -1: it reads 0.
-struct WordOfRecord {
-  unsigned address;
-  unsigned group;
-  std::array<int, 4> places;
-};
-constexpr WordOfRecord kWords[] = {
-    {map::kAddrPos4, 0, {4, 3, 2, 1}},
-    {map::kAddrPos0, 0, {0, 10, 9, 8}},
-    {map::kAddrSummary, 1, {37, 36, 35, 34}},
-    {map::kAddrVpos1, 1, {33, 32, 39, 38}},
-    {0x44, 2, {-1, -1, 45, 44}},
-    {map::kAddrVpos23, 2, {43, 42, 41, 40}},
-    {map::kAddrVposcrc2H, 2, {47, 46, -1, -1}},
-    {page::kAddrPosLo, 3, {56, 57, 58, 59}},
-    {page::kAddrPosHi, 3, {60, 61, 62, 63}},
-    {page::kAddrVel, 3, {8, 9, 10, 11}},
-    {page::kAddrFrameCount, 3, {16, 17, 18, 19}},
-    {page::kAddrFrameTimeLo, 3, {24, 25, 26, 27}},
-    {page::kAddrFrameTimeHi, 3, {28, 29, 30, 31}},
-    {page::kAddrFrameStatus, 3, {20, 21, 22, 23}},
-    {page::kAddrSafe1Lo, 4, {32, 33, 34, 35}},
-    {page::kAddrSafe1Hi, 4, {36, -1, -1, -1}},
-    {page::kAddrSafe1Check, 4, {38, 39, 37, 20}},
-    {page::kAddrSafe1Age, 4, {48, 49, 50, 51}},
-    {page::kAddrSafe2Lo, 5, {40, 41, 42, 43}},
-    {page::kAddrSafe2Hi, 5, {44, -1, -1, -1}},
-    {page::kAddrSafe2Check, 5, {46, 47, 45, 20}},
-    {page::kAddrSafe2Age, 5, {52, 53, 54, 55}},
-};
-
 TEST_P(DslRegsBlock, ReadersOfRecords_SeeTheCopyOfTheirGroup) {
   std::array<Record, kGroups> copies{};
   tell(0, 0);
   for (const WordOfRecord& word : kWords) {
-    if (word.address == 0x44 || word.address == map::kAddrPos4 ||
-        word.address == map::kAddrSummary || word.address == page::kAddrPosLo ||
-        word.address == page::kAddrSafe1Lo || word.address == page::kAddrSafe2Lo) {
+    if (dsl_registers::is_first(word)) {
       read(word.address);
       copies[word.group] = newest;
     }
@@ -482,7 +453,7 @@ TEST_P(DslRegsBlock, ReadersOfRecords_SeeTheCopyOfTheirGroup) {
       ASSERT_EQ(read_byte(map::kAddrSafeSum), sdk() ? newest[kSummary] : 0);
     }
     const WordOfRecord& word = kWords[random.below(std::size(kWords))];
-    const bool copying = &word == kWords || word.group != (&word)[-1].group;
+    const bool copying = dsl_registers::is_first(word);
     if (copying) copies[word.group] = newest;
     // A new record while the word is read, behind its first byte, changes nothing of it.
     const unsigned when = 2 + random.below(12);
@@ -494,19 +465,7 @@ TEST_P(DslRegsBlock, ReadersOfRecords_SeeTheCopyOfTheirGroup) {
           }
           clock();
         });
-    std::uint32_t expected = 0;
-    for (unsigned lane = 0; lane < 4; ++lane) {
-      const int place = word.places[lane];
-      if (place < 0) continue;
-      unsigned byte = copies[word.group][static_cast<unsigned>(place)];
-      if (place == 20) {
-        const unsigned valid = word.group == 4 ? 3 : 4;
-        const unsigned error = word.group == 4 ? 6 : 7;
-        byte = word.group == 3 ? byte & 0x3FU
-                               : (byte >> valid & 1U) << 7U | (byte >> error & 1U) << 6U;
-      }
-      expected |= byte << 8 * lane;
-    }
+    const std::uint32_t expected = dsl_registers::word_of(word, copies[word.group]);
     ASSERT_EQ(value, expected) << std::hex << word.address << std::dec << " turn " << i;
     if (random.below(4) == 0) write(word.address, ~expected, 0xF);
   }
