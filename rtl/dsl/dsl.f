@@ -28,3 +28,5 @@ dsl_time.sv
 dsl_map.sv
 dsl_regs.sv
 dsl_core.sv
+dsl_bridge.sv
+dsl_axil.sv

@@ -7,8 +7,9 @@
 // Clock domain: core. word_req_i and what comes with it stay up to the clock with word_ready_o,
 // which is the seventh one of an access: word_data_o is right in it. If a number of more than one
 // byte changes meanwhile, a read begins anew; one of TIME_LOW waits 9 to 17 clocks for the time.
-// word_data_o of a write is undefined. record_data_i is the byte that record_*_o has asked for, one
-// clock later. hold_o is 1 while PRST is, in the personality of the SDK for one clock.
+// word_data_o of a write is undefined; it stays up to the second clock of the next access.
+// record_data_i is the byte that record_*_o has asked for, one clock later. hold_o is 1 while PRST
+// is, in the personality of the SDK for one clock.
 //
 // irq_o is 1 while an interrupt is set and enabled. Events set their bits with the record of their
 // frame (tell_i), POS and EVENT_PRST at once; a set in the clock of a write wins.
@@ -141,7 +142,9 @@ module dsl_regs (
       record_q <= here && told_q && row.kind >= dsl_map_pkg::RECORD;
       kind_q   <= row.kind;
       byte_q   <= register;
-      word_q   <= {byte_q | (shaped & {8{record_q}}), word_q[31:8]};
+      if (step_q[2:1] != 2'd0 && step_q != LAST_STEP) begin
+        word_q <= {byte_q | (shaped & {8{record_q}}), word_q[31:8]};
+      end
       copy_q   <= time_copy_o && !time_copied_i;
       copied_q <= word_req_i && step_q != LAST_STEP && (copied_q || (copy_q && time_copied_i));
     end

@@ -30,8 +30,8 @@ ITEMS = "tools/signoff/items.toml"
 SIMULATOR, COMMANDS = "sim/masters/masters.cpp", "tools/mb4sim/masters/support.cpp"
 # (master, what it lacks): why. A row that is not needed is a finding.
 WAIVED: dict[tuple[str, str], str] = {
-    ("dsl", what): "its parts stand alone, without a bus"
-    for what in ("block", "netlist", "core", "measured", "release", "proofs")}
+    ("dsl", what): "not complete: no simulator and no driver use its top yet"
+    for what in ("block", "buses", "netlist", "core", "measured", "release", "proofs")}
 
 
 def own_modules(master):
