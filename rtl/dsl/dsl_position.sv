@@ -6,9 +6,10 @@
 // and a memory of 256 bytes.
 //
 // Clock domain: core. Work on a running frame begins with the second word of its acceleration and
-// waits for answer_i.ends. tell_o follows it by 60 to 700 clocks: the record of the frame is
-// complete. From then on lost_o is that of this frame; it is 1 without a link. A new link
-// (answer_i.begins) clears all but frames and time, in 900 clocks; so does the reset, with them.
+// waits for answer_i.ends. tell_o follows it by 40 to 700 clocks: the record of the frame is
+// complete. lost_o falls with it and rises at once, so a position that is read behind lost_o = 0 is
+// certain; it is 1 without a link. A new link (answer_i.begins) clears all but frames and time, in
+// 1,050 clocks at most; so does the reset, with them.
 //
 // Record: a byte at a time, record_data_o goes to record_address_o with record_write_o. The lowest
 // byte of a number comes first; dsl_program has its order, eight addresses a value. An age is all
@@ -18,7 +19,7 @@
 //
 // time_i: the byte of the frame's time; time_next_o asks for the next one, eight times a frame, the
 // lowest one first. The first one is taken 5 clocks or more behind the second word.
-// Misuse: a frame whose second word comes before tell_o of the frame before is left out. An
+// Misuse: a frame that ends before tell_o of the frame before is left out. An
 // identity with more than 40 bits of position has a position without bits.
 // Source: docs/dsl.md, "Position".
 
@@ -82,6 +83,7 @@ module dsl_position (
   logic [2:0] word_index;
   logic       frame_q, begun_q, vertical_q, ended_q;
   logic [2:0] align_q;        // dsl_program_pkg::align_e
+  logic       certain_q;      // lost_o was 0
   logic [1:0] stale_d, stale_q; // vertical frames without a good safe position 1
   logic       stale;
   logic [7:0] status0;
@@ -160,7 +162,7 @@ module dsl_position (
   assign status0 = {told_i.safe2_error, told_i.safe1_error,
                     told_i.safe2_error || told_i.safe1_error,
                     told_i.safe2_valid, told_i.safe1_valid,
-                    answer_i.running, answer_i.linked, lost_o};
+                    answer_i.running, answer_i.linked, align_q != dsl_program_pkg::ALIGNED};
 
   always_comb begin
     in = time_i;
@@ -272,6 +274,7 @@ module dsl_position (
       vertical_q <= 1'b0;
       stale_q    <= '0;
       align_q    <= dsl_program_pkg::FIRST;
+      certain_q  <= 1'b0;
     end else begin
       if (answer_i.ends) frame_q <= 1'b0;
       else if (answer_i.valid && answer_i.number == LOW_WORD) frame_q <= answer_i.running;
@@ -282,6 +285,7 @@ module dsl_position (
       if (answer_i.ends) vertical_q <= answer_i.running && answer_i.place == LAST_PLACE;
       if (answer_i.begins) stale_q <= '0;
       else if (ended_q)    stale_q <= told_i.safe1_valid ? 2'd0 : stale_d;
+      certain_q <= !lost_o;
       if (!answer_i.linked) align_q <= dsl_program_pkg::FIRST;
       else if (run && set)  align_q <= jump.state;
     end
@@ -289,7 +293,7 @@ module dsl_position (
 
   assign time_next_o      = run && is_sum && second_q && sum.source == dsl_program_pkg::INPUT
                          && sum.second[1:0] == dsl_program_pkg::IN_TIME;
-  assign lost_o           = align_q != dsl_program_pkg::ALIGNED;
+  assign lost_o           = align_q != dsl_program_pkg::ALIGNED || !(certain_q || tell_o);
   assign record_write_o   = write && result_to[7:6] == 2'd0;
   assign record_address_o = result_to[5:0];
   assign record_data_o    = total;

@@ -63,6 +63,8 @@ module proof (
 
   // From the end of a running frame to its record.
   logic       busy_q, linked_q, new1_q, good_q, vertical_q;
+  logic       lost_q = 1'b1;
+  always @(posedge clk_i) lost_q <= lost;
   logic [2:0] align_q;
   always @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) {busy_q, linked_q, new1_q, good_q, vertical_q, align_q} <= '0;
@@ -123,10 +125,11 @@ module proof (
 
   always @* if (started) begin
     Order_A:   assert (follows);
-    Certain_A: assert (lost || align_q == ALIGNED || (vertical_q && new1_q));
-    Link_A:    assert (linked_q || lost);
-    Lost_A:    assert (lost == (align != ALIGNED));
-    if (step >= ADD && step <= WAIT && !good_q) Missing_A: assert (lost);
+    Certain_A: assert (align != ALIGNED || align_q == ALIGNED || (vertical_q && new1_q));
+    Link_A:    assert (linked_q || align != ALIGNED);
+    Lost_A:    assert (lost || align == ALIGNED);
+    Told_A:    assert (lost || !lost_q || tell);
+    if (step >= ADD && step <= WAIT && !good_q) Missing_A: assert (align != ALIGNED);
     Step_A:    assert (step < IDLE + 8'd3);
     Range_A:   assert (align <= MENDING && stale <= 2'd3);
     // For the induction.

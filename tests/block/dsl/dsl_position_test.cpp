@@ -88,6 +88,9 @@ class DslPositionBlock : public testing::Test {
     }
     if (m.time_next_o != 0) ++time_bytes;
     told = m.tell_o != 0;
+    // POS falls with the record of its frame, not before it.
+    EXPECT_TRUE(m.lost_o != 0 || was_certain || told);
+    was_certain = m.lost_o == 0;
     ++clocks;
     ++clocks_ever;
     vertical_block.clock();
@@ -286,6 +289,7 @@ class DslPositionBlock : public testing::Test {
   std::array<std::uint8_t, 64> record{};
   std::uint64_t written = 0;
   bool told = false;
+  bool was_certain = false;  // lost_o was 0
   std::uint64_t clocks = 0;  // since the first word of a frame
   std::uint64_t clocks_ever = 0;
   std::uint64_t ended = 0;    // a frame was
