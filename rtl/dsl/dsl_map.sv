@@ -50,10 +50,11 @@ module dsl_map (
     constant = {dsl_map_pkg::CONSTANT, 1'b0, 1'b0, 3'd0, value};
   endfunction
 
-  logic [15:0] row, row_q;
+  logic [8:0]  address_q;
+  logic [15:0] row;
 
   always_comb begin
-    case (address_i)
+    case (address_q)
       // The map.
       9'(dsl_regs_pkg::ADDR_SYS_CTRL):                     row = register(dsl_map_pkg::SYS_CTRL);
       9'(dsl_regs_pkg::ADDR_SYNC_CTRL):                    row = register(dsl_map_pkg::SYNC_CTRL);
@@ -190,9 +191,9 @@ module dsl_map (
   end
 
   always_ff @(posedge clk_i) begin
-    row_q <= row;
+    address_q <= address_i;
   end
 
-  assign row_o = row_q;
+  assign row_o = row;
 
 endmodule
