@@ -41,7 +41,6 @@ KEYS = {"checks", "claim", "clocks", "depth", "cover", "unbounded", "look", "kee
 TWO_LINES = 0x40
 PARAMETERS = {"BissB": 0x20, "Ssi": 0x10, "Mo": 0x08, "Control": 0x04, "FreeCrc": 0x01}
 SOLVER = "z3"
-STEPS = 10
 PACKAGE = {"z3": "z3"}  # the others are of the package yosys
 FAR = 30
 # A cover point as the claim that it is never reached.
@@ -167,13 +166,18 @@ def failed_step(folder, step):
     return text
 
 
-def bounded(proof, folder):
-    depth = int(proof.one("depth"))
-    text = abc(folder, "claims.aig", f"bmc3 -F {depth}")
+def claims(folder, command, proved):
+    """Whether ABC says `proved` of the claims, and what it or the other solver says."""
+    text = abc(folder, "claims.aig", command)
     failed = re.search(r"was asserted in frame (\d+)", text)
     if failed:
         return False, failed_step(folder, int(failed.group(1)))
-    return f"No output asserted in {depth} frames" in text, text
+    return proved in text, text
+
+
+def bounded(proof, folder):
+    depth = int(proof.one("depth"))
+    return claims(folder, f"bmc3 -F {depth}", f"No output asserted in {depth} frames")
 
 
 def unbounded(proof, folder):
@@ -182,11 +186,7 @@ def unbounded(proof, folder):
         status, text = smtbmc(folder, "-i", "-t", how[1])
         return status == 0 and "Status: PASSED" in text, text
     if how[0] == "reachability":
-        text = abc(folder, "claims.aig", "pdr")
-        failed = re.search(r"was asserted in frame (\d+)", text)
-        if failed:
-            return False, failed_step(folder, int(failed.group(1)))
-        return "Property proved" in text, text
+        return claims(folder, "pdr", "Property proved")
     return True, ""
 
 

@@ -11,11 +11,13 @@
 
 #include "sim/masters/dsl_model/line_code.hpp"
 #include "sim/masters/dsl_model/link.hpp"
+#include "tests/block/dsl/dsl_quirks.hpp"
 #include "tests/support/dice.hpp"
 
 namespace dsl_frames {
 
 using namespace mb4::sim::dsl_model;
+using mb4test::quirks_of;
 
 // The words of a frame as they come: vertical, S_PAR, pipeline, two of the acceleration, secondary.
 enum Place : unsigned { kVertical, kParameter, kPipeline, kHigh, kLow, kSecondary, kWords };
@@ -91,23 +93,6 @@ struct AnswerPort {
            bit(valid) << 15U | number << 12U | word_bits << 1U | bit(ends);
   }
 };
-
-// dsl_pkg::quirks_t.
-inline unsigned quirks_of(const LinkRules& rules) {
-  unsigned port = 0;
-  const auto add = [&port](unsigned value, unsigned width) { port = port << width | value; };
-  add(0, 1);
-  add(rules.recover ? 1 : 0, 1);
-  add(rules.check == CodeCheck::kStrict ? 1 : 0, 1);
-  add(static_cast<unsigned>(rules.sample), 2);
-  add(static_cast<unsigned>(rules.quality), 2);
-  add(rules.rssi_table ? 1 : 0, 1);
-  add(rules.rx_start, 4);
-  add(rules.start_blocks, 5);
-  add(rules.vsync_limit, 8);
-  add(rules.stale_limit, 2);
-  return port;
-}
 
 // What dsl_position takes of dsl_pkg::line_status_t.
 struct StatusPort {

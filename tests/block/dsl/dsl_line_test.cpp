@@ -18,6 +18,7 @@
 #include "Vdsl_line.h"
 #include "sim/lines/dsl/dsl_code.hpp"
 #include "sim/masters/dsl_model/link.hpp"
+#include "tests/block/dsl/dsl_quirks.hpp"
 #include "tests/block/dsl/dsl_waveform.hpp"
 #include "tests/support/environment.hpp"
 #include "tests/support/model_context.hpp"
@@ -26,6 +27,7 @@ namespace {
 
 using namespace mb4::sim::dsl_model;
 namespace dsl = mb4::sim::dsl;
+using mb4test::quirks_of;
 
 constexpr unsigned kVertical = 8;
 constexpr unsigned kFrameTicks = 864;
@@ -95,22 +97,6 @@ struct StatusPort {
   unsigned place, edges, rssi, quality, identity, illegal, resets, reason, state;
   bool low;
 };
-
-unsigned quirks_of(const LinkRules& rules) {
-  unsigned port = 0;
-  const auto add = [&port](unsigned value, unsigned width) { port = port << width | value; };
-  add(0, 1);
-  add(rules.recover ? 1 : 0, 1);
-  add(rules.check == CodeCheck::kStrict ? 1 : 0, 1);
-  add(static_cast<unsigned>(rules.sample), 2);
-  add(static_cast<unsigned>(rules.quality), 2);
-  add(rules.rssi_table ? 1 : 0, 1);
-  add(rules.rx_start, 4);
-  add(rules.start_blocks, 5);
-  add(rules.vsync_limit, 8);
-  add(rules.stale_limit, 2);
-  return port;
-}
 
 // ---- What is not in the line
 // ----------------------------------------------------------------------
