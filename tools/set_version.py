@@ -29,6 +29,7 @@ VERSION_COPIES = {
     **{master.core: r"(?m)^name: openmb4:ip:\w+:(\d+)\.(\d+)\.(\d+)$" for master in masters.load().values() if master.core},
     "drivers/include/mb4/version.hpp":
         r"VersionMajor = (\d+);[^;]*VersionMinor = (\d+);[^;]*VersionPatch = (\d+);",
+    "drivers/esp_idf/openmb4/idf_component.yml": r'(?m)^version: "(\d+)\.(\d+)\.(\d+)"$',
 }
 
 

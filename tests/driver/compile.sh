@@ -7,6 +7,7 @@
 #   compile.sh accept COMPILER FILE FLAGS...           FILE must compile without a warning
 #   compile.sh as_cpp COMPILER FILE FLAGS...           FILE in C must compile as C++ without a warning
 #   compile.sh reject COMPILER FILE MESSAGE FLAGS...   FILE must fail and print MESSAGE
+#   compile.sh one_error COMPILER HEADERS MESSAGE FLAGS...   all HEADERS as C++14 must give one error, MESSAGE
 #   compile.sh readme COMPILER FILE FLAGS...           cpp blocks of a Markdown file must build
 #
 # FLAGS are the include options. Exit status 77: the compiler is missing.
@@ -57,6 +58,20 @@ case $mode in
       exit 1
     fi
     grep -m 1 -e "$message" "$work/log"
+    ;;
+  one_error)
+    message=$1
+    shift
+    for header in $file; do
+      printf '#include "%s"\n' "$header" >> "$work/unit.cpp"
+    done
+    "$compiler" -std=c++14 $strict "$@" -fsyntax-only "$work/unit.cpp" 2> "$work/log"
+    if [ "$(grep -cE ': (fatal )?error:' "$work/log")" != 1 ] || ! grep -q "error: .*$message" "$work/log"; then
+      echo "not the one error '$message', but:"
+      cat "$work/log"
+      exit 1
+    fi
+    grep -m 1 "$message" "$work/log"
     ;;
   readme)
     awk '/^```cpp$/ { inside = 1; next } /^```$/ { inside = 0 } inside' "$file" > "$work/unit.cpp"

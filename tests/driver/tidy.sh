@@ -31,10 +31,13 @@ if run "$work/planted.cpp" > "$work/log" 2>&1 || ! grep -q 'macro-usage' "$work/
   exit 1
 fi
 printf '#include "mb4/ports/arduino.hpp"\n#include "mb4/ports/spidev.hpp"\n#include "mb4/words/memory_bus.hpp"\n#include "mb4/words/snapshots.hpp"\n' > "$work/ports.cpp"
+ports=$root/tests/driver/ports
+printf '#include "main.h"\n#include "mb4/ports/stm32_hal.hpp"\n#include "mb4/ports/pico.hpp"\n#include "mb4/ports/esp_idf.hpp"\n' > "$work/mcu.cpp"
+flags="$flags -isystem $ports/stm32 -isystem $ports/pico -isystem $ports/esp_idf"
 status=0
 for file in "$root/drivers/c/mb4_c.cpp" "$root/tests/driver/footprint/whole.cpp" \
   "$root/tests/driver/footprint/safety.cpp" "$root/tests/driver/footprint/guarded.cpp" \
-  "$work/ports.cpp"; do
+  "$work/ports.cpp" "$work/mcu.cpp"; do
   run "$file" 2> "$work/log" || { status=1; grep -E 'warning|error' "$work/log"; }
 done
 exit $status

@@ -9,6 +9,9 @@
 #ifndef BISS_AXI_DEVICE_HPP_
 #define BISS_AXI_DEVICE_HPP_
 
+#include "enc/cpp17.hpp"
+#if __cplusplus >= 201703L
+
 #include <cstdint>
 #include <type_traits>
 #include <utility>
@@ -396,5 +399,7 @@ class Device {
 };
 
 }  // namespace biss_axi
+
+#endif  // C++17
 
 #endif  // BISS_AXI_DEVICE_HPP_

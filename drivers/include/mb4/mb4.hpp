@@ -6,6 +6,9 @@
 #ifndef MB4_MB4_HPP_
 #define MB4_MB4_HPP_
 
+#include "enc/cpp17.hpp"
+#if __cplusplus >= 201703L
+
 #include "mb4/automatic.hpp"
 #include "mb4/bus.hpp"
 #include "mb4/command.hpp"
@@ -31,5 +34,7 @@
 #include "mb4/span.hpp"
 #include "mb4/status.hpp"
 #include "mb4/version.hpp"
+
+#endif  // C++17
 
 #endif  // MB4_MB4_HPP_

@@ -20,67 +20,33 @@
 #include "mb4/ports/arduino.hpp"
 #include "mb4/ports/spidev.hpp"
 #include "mb4/ports/zephyr.hpp"
-#include "tests/driver/rtl/rtl_calls.hpp"
-#include "tests/support/chip_fixture.hpp"
+#include "tests/driver/ports/port_chip.hpp"
 
 namespace {
 
 namespace reg = mb4::regs;
 
-mb4::sim::Simulator* chip = nullptr;  // what the wrapped calls below talk to
-bool fails = false;
+using mb4test::chip;
+using mb4test::exchange;
+using mb4test::fails;
+using mb4test::note_rate;
+using mb4test::other_hz;
+using mb4test::read_hz;
+
 bool refuses_mode = false;
 std::uint64_t cycle_hz = 16'000'000;  // Zephyr's cycle counter
-std::uint32_t read_hz = 0;            // fastest SCLK of opcode 0x03
-std::uint32_t other_hz = 0;           // slowest SCLK of any other opcode
 mb4::sim::Time break_ends = 0;        // of the last BREAK; 0: a later frame has begun
 mb4::sim::Time shortest_pause = 0;    // from the end of a BREAK to the next frame
 constexpr int kFile = 12345;
 
-void note_rate(std::uint8_t opcode, std::uint32_t hz) {
-  if (opcode == reg::kSpiOpcodeReadRegisters) {
-    read_hz = std::max(read_hz, hz);
-  } else {
-    other_hz = std::min(other_hz, hz);
-  }
-}
-
-std::vector<std::uint8_t> exchange(const std::uint8_t* tx, std::size_t size) {
-  std::vector<std::uint8_t> rx(size);
-  chip->spi().transfer(std::span(tx, size), rx);
-  return rx;
-}
-
-class DriverPort : public testing::Test {
+class DriverPort : public mb4test::PortChip {
  protected:
-  DriverPort() : simulator(mb4::sim::parse_scenario(mb4test::kEncoder, "test.toml")) {
-    chip = &simulator;
-    fails = false;
+  DriverPort() {
     refuses_mode = false;
     cycle_hz = 16'000'000;
-    read_hz = 0;
-    other_hz = ~std::uint32_t{0};
     break_ends = 0;
     shortest_pause = mb4::sim::kPsPerSecond;
   }
-  ~DriverPort() override { chip = nullptr; }
-
-  template <typename Bus, typename Clock>
-  void read_positions(Bus& bus, Clock& clock) {
-    mb4::Device<Bus, Clock> device(bus, clock);
-    ASSERT_TRUE(device.probe().ok());
-    ASSERT_TRUE(device.configure(mb4test::encoder(false)).ok());
-    for (int i = 0; i < 3; ++i) {
-      const mb4::Result<mb4::Reading> reading = device.read_frame();
-      ASSERT_TRUE(reading.ok());
-      EXPECT_EQ(reading->position, 0x2ABCDEFU);
-    }
-    std::array<std::uint8_t, 4> serial{};
-    ASSERT_TRUE(device.control().read_registers({1, 0}, 0x44, serial).ok());
-    EXPECT_EQ(serial[1], 0xD9);
-  }
-
-  mb4::sim::Simulator simulator;
 };
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include <cstdint>
 
 #include "mb4/bus.hpp"
+#include "mb4/ports/counter_us.hpp"
 #include "mb4/span.hpp"
 
 namespace mb4::ports {
@@ -50,23 +51,13 @@ class ZephyrBus {
 };
 
 // The cycle counter of the kernel, 32 kHz or faster. Its 32 bits must not wrap within one call of
-// the driver. What a reading rounds off counts in the next one, so the time is exact at any rate.
+// the driver.
 class ZephyrClock {
  public:
-  std::uint32_t now_us() {
-    const std::uint32_t cycles = k_cycle_get_32();
-    const std::uint64_t hz = sys_clock_hw_cycles_per_sec();
-    const std::uint64_t parts = rest_ + std::uint64_t{cycles - last_cycles_} * 1'000'000U;
-    last_cycles_ = cycles;
-    time_us_ += static_cast<std::uint32_t>(parts / hz);
-    rest_ = parts % hz;
-    return time_us_;
-  }
+  std::uint32_t now_us() { return time_.at(k_cycle_get_32(), sys_clock_hw_cycles_per_sec()); }
 
  private:
-  std::uint64_t rest_ = 0;  // of a microsecond, times the counter's rate
-  std::uint32_t last_cycles_ = 0;
-  std::uint32_t time_us_ = 0;
+  CounterUs<std::uint32_t> time_;
 };
 
 }  // namespace mb4::ports
