@@ -20,8 +20,8 @@ test_packages=(
   clang-format clang-tidy gcovr
   gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib linux-libc-dev
   arduino-core-avr avr-libc gcc-avr gcc-riscv64-unknown-elf picolibc-riscv64-unknown-elf qemu-system-arm
-  python3-cffi python3-distributed python3-ipykernel python3-matplotlib python3-nbclient python3-numpy
-  python3-pytest python3-tqdm python3-yaml
+  mypy python3-cffi python3-distributed python3-ipykernel python3-matplotlib python3-nbclient python3-numpy
+  python3-pandas python3-pytest python3-tqdm python3-yaml
 )
 python_packages=(
   cmake g++ libfmt-dev libtomlplusplus-dev ninja-build python3 python3-pip python3-venv verilator zlib1g-dev

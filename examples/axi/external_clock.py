@@ -20,7 +20,9 @@ with openmb4.Simulator(Path(__file__).with_name("external-clock.toml")) as chip:
         for level in (1, 0):
             chip.set_pin("ext_sample_clk", level)
             chip.advance_ns(25_000)
-        words, good = chip.stream_read()
+        beat = chip.stream_read()
+        assert beat is not None
+        words, good = beat
         if not chip.pin("error"):  # one of the encoders has sent nE = 0: no position is used
             good = 0
         print(f"{chip.time_ns / 1000:7.1f} us  positions {words[:2]}, good {good:02b}")

@@ -12,6 +12,7 @@ that the encoder sent."""
 
 import argparse
 from pathlib import Path
+from typing import Any, Dict
 
 import matplotlib
 
@@ -25,7 +26,7 @@ GRID = {"ma_hz": [10_000_000, 5_000_000, 2_500_000],
         "jitter_percent": [0, 25, 40, 45, 50, 55, 60, 75]}  # of the period of MA, peak to peak
 
 
-def count(point):
+def count(point: Dict[str, Any]) -> Dict[str, int]:
     """Lost and wrong frames of one point."""
     scenario = {
         "chip": {"f_clk_hz": 20_000_000},
@@ -42,7 +43,7 @@ def count(point):
         while left:
             before = chip.frames(1)
             rows = chip.driver.read_all(min(left, 1000))
-            good = rows["frame"]["code"][:, 0] == 0
+            good = rows["frame"]["code"][:, 0] == openmb4.Code.OK
             sent = np.array([chip.sent(1, before + 1 + i) for i in range(len(rows))], np.uint64)
             lost += int((~good).sum())
             wrong += int((rows["frame"]["reading"]["raw"][good, 0] != sent[good]).sum())
@@ -50,7 +51,7 @@ def count(point):
     return {"lost": lost, "wrong": wrong}
 
 
-def main():
+def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
     parser.add_argument("folder", type=Path)
     parser.add_argument("--frames", type=int, default=2000, help="frames a point, 1 or more")

@@ -345,6 +345,40 @@ int mb4sim_run_until(mb4sim* sim, const char* pin, int level, uint64_t limit_ns)
   });
 }
 
+int mb4sim_watch_pins(mb4sim* sim, const char* const* pins, size_t n, uint64_t ns,
+                      mb4sim_pin_callback callback, void* context) {
+  if (sim == nullptr || callback == nullptr || (pins == nullptr && n != 0))
+    return MB4SIM_ERROR_UNKNOWN;
+  struct Watched {
+    mb4::sim::Pin pin;
+    bool level;
+  };
+  return guarded(sim, [&](Simulator& simulator) {
+    std::vector<Watched> watched;
+    for (const char* name : std::span(pins, n)) {
+      const auto pin = find_pin(sim, name);
+      if (!pin) return int{MB4SIM_ERROR_UNKNOWN};
+      if (pin == simulator.pin_by_name("CLK")) return int{MB4SIM_ERROR_DRIVEN};
+      watched.push_back({*pin, simulator.pin(*pin)});
+    }
+    const auto tell = [&](const Watched& one) {
+      callback(context, static_cast<size_t>(&one - watched.data()), simulator.now(), one.level);
+    };
+    const auto look = [&] {
+      for (Watched& one : watched) {
+        if (simulator.pin(one.pin) == one.level) continue;
+        one.level = !one.level;
+        tell(one);
+      }
+      return false;
+    };
+    for (const Watched& one : watched) tell(one);
+    const auto limit = std::min(mb4::sim::kEndOfTime, simulator.now() + duration(ns));
+    simulator.run_while_waiting(look, std::max(limit, simulator.now()));
+    return 0;
+  });
+}
+
 int mb4sim_bus_write(mb4sim* sim, uint8_t address, uint8_t data) {
   return hosted<ParallelHost>(sim, [&](ParallelHost& bus) {
     bus.write(address, data);

@@ -216,6 +216,18 @@ typedef void (*mb4sim_edge_callback)(void *context, unsigned channel, unsigned p
  * must not do what that of mb4sim_on_frame() must not. */
 MB4SIM_API int mb4sim_on_edge(mb4sim *sim, mb4sim_edge_callback callback, void *context);
 
+/* A watched pin has a new level, 0 or 1, since `time_ps` picoseconds after power-on. `pin` is its
+ * index in the list of mb4sim_watch_pins(). */
+typedef void (*mb4sim_pin_callback)(void *context, size_t pin, uint64_t time_ps, int level);
+
+/* Lets `ns` nanoseconds pass and calls `callback` at every change of these `n` pins
+ * (mb4sim_pin_read()), first for their present levels. A change lasts at least until the next event
+ * of the simulation: a shorter one is not told. Returns 0 or a negative error:
+ * MB4SIM_ERROR_UNKNOWN, and MB4SIM_ERROR_DRIVEN for CLK, whose edges are not told; then no time has
+ * passed. The callback must not do what that of mb4sim_on_frame() must not. */
+MB4SIM_API int mb4sim_watch_pins(mb4sim *sim, const char *const *pins, size_t n, uint64_t ns,
+                                 mb4sim_pin_callback callback, void *context);
+
 /* Begins a waveform now: an FST file (GTKWave, Surfer) at `path`, as `mb4sim run --trace` writes
  * it, with the pins, the registers inside the chip, and the levels at the slaves. Edges that are on
  * a cable when it begins may appear early at the slaves. Its times are those since power-on in ps.

@@ -36,14 +36,14 @@ def test_levels_are_those_of_the_simulated_slave(busy, bits, polynomial):
         chip.driver.configure()
         chip.driver.read_frame(1)
         chip.spi(bytes((7, 4)))
-        record = chip.record(("MA1", "SL1"), 30_000, 5)
+        record = chip.record(("MA1", "SL1"), 30_000)
     times, levels = record.pins["MA1"]
     encoder = BissCEncoder(lambda: word, bits, polynomial, busy=busy)
     edges = [encoder.ma(level) for level in levels[1:]]
     assert encoder.timeout() == 1 and encoder.frames == 1 and encoder.latched == word
     assert encoder.cdm == 1 - levels[-1]
     # The level of SL 20 ns after each edge of MA; the cable has no delay.
-    expected = [record.pins["SL1"][1][record.pins["SL1"][0].searchsorted(at + 20, "right") - 1]
+    expected = [record.pins["SL1"][1][record.pins["SL1"][0].searchsorted(at + 20_000, "right") - 1]
                 for at in times[1:]]
     assert edges == expected
     assert len(edges) > 2 * bits

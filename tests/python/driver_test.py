@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The driver's calls: expected values are those of the scenarios."""
 
+import dataclasses
 import os
 import re
 import subprocess
@@ -108,6 +109,87 @@ def test_configuration_may_be_changed_and_is_checked(chip):
     assert error.value.code == "MB4_INVALID_CONFIG"
 
 
+def test_configuration_shows_what_is_not_at_its_default(chip):
+    config = chip.driver.config()
+    assert isinstance(config, openmb4.Config)
+    assert config.protocol[0] is openmb4.Protocol.BISS_C and config.spi_check is openmb4.SpiCheck.CRC
+    assert repr(config).startswith("Config(ma_hz=10000000, ")
+    assert repr(config).endswith("spi_check=SpiCheck.CRC, protocol=[Protocol.BISS_C, Protocol.UNUSED], "
+                                 "slaves[0]=SlaveConfig(enabled=True, data_bits=28))")
+    assert repr(openmb4.Config()) == "Config()"
+    assert chip.driver.config() == config != openmb4.Config()
+    for kind in (openmb4.Config, openmb4.SlaveConfig):
+        for one in dataclasses.fields(kind):
+            assert re.search(rf"^    {one.name} ", kind.__doc__, re.M), one.name
+
+
+def test_configuration_has_the_members_and_defaults_of_c():
+    from openmb4 import config
+    from openmb4._library import ffi, lib
+    for python, c in ((openmb4.Config, "mb4_config"), (openmb4.SlaveConfig, "mb4_slave_config")):
+        assert [one.name for one in dataclasses.fields(python)] == [name for name, _ in ffi.typeof(c).fields]
+    default = ffi.new("mb4_config *", lib.mb4_config_default())
+    assert config.from_c(default) == openmb4.Config()
+    there = config.to_c(openmb4.Config())
+    assert bytes(ffi.buffer(there)) == bytes(ffi.buffer(default))
+
+
+@pytest.mark.parametrize("kind, prefix", [
+    (openmb4.Code, "MB4_"), (openmb4.SimulatorCode, "MB4SIM_ERROR_"),
+    (openmb4.Protocol, "MB4_PROTOCOL_"), (openmb4.ClockSource, "MB4_CLOCK_"),
+    (openmb4.LineInterface, "MB4_LINE_"), (openmb4.FrameStart, "MB4_START_"),
+    (openmb4.Flags, "MB4_FLAGS_"), (openmb4.SpiCheck, "MB4_SPI_CHECK_")])
+def test_enums_are_those_of_the_headers(kind, prefix):
+    from openmb4._library import _headers, lib
+    enums = re.findall(r"enum \{(.*?)\}", re.sub(r"/\*.*?\*/", "", "\n".join(_headers), flags=re.S),
+                       re.S)
+    found, = [names for names in (re.findall(r"\b(MB4\w+)", text) for text in enums)
+              if prefix + list(kind)[0].name in names]
+    assert [f"{prefix}{one.name}" for one in kind] == found
+    assert all(one == getattr(lib, prefix + one.name) for one in kind)
+
+
+@pytest.mark.parametrize("change, message", [
+    (lambda c: setattr(c, "f_clk_hz", 5), "configure: .*f_clk_hz: it is 1_000_000 to 25_000_000.*, not 5$"),
+    (lambda c: setattr(c, "ma_hz", 3), "ma_hz: it is one of .*ma_hz_at_most.*, not 3$"),
+    (lambda c: setattr(c.slaves[0], "data_bits", 65), "data_bits of 1: it is 1 to 64.*, not 65$"),
+    (lambda c: setattr(c.slaves[1], "data_bits", 256), r"^slaves\[1\].data_bits is 1 to 64.*, not 256$"),
+    (lambda c: setattr(c, "mo_busy", "x"), "^Config.mo_busy is 0 to 255; 0 without mo, not 'x'$"),
+    (lambda c: setattr(c, "spi_check", 9), "^Config.spi_check is of SpiCheck: OFF, CRC, FULL,.* not 9$"),
+    (lambda c: c.protocol.__setitem__(1, 4), r"^Config.protocol\[1\] is of Protocol: BISS_B.* not 4$"),
+    (lambda c: c.slaves.pop(), "^Config.slaves is a list of 8 SlaveConfig, not 7$"),
+])
+def test_wrong_member_is_named_with_what_it_takes(chip, change, message):
+    config = chip.driver.config()
+    change(config)
+    with pytest.raises(openmb4.Error, match=message) as told:
+        chip.driver.configure(config)
+    assert told.value.number is openmb4.Code.INVALID_CONFIG
+
+
+def test_unknown_member_is_refused(chip):
+    config = chip.driver.config()
+    with pytest.raises(openmb4.Error, match="Config has no member 'ma_khz'; did you mean ma_hz"):
+        config.ma_khz = 1
+    with pytest.raises(AttributeError, match="SlaveConfig has no member 'bits'"):
+        config.slaves[0].bits = 1
+    with pytest.raises(openmb4.Error, match="configure: takes a Config.*not dict"):
+        chip.driver.configure({})
+
+
+@pytest.mark.parametrize("call, message", [
+    (lambda d: d.read_frame(9), r"^read_frame\(9\): invalid argument: slave is 1 to 8$"),
+    (lambda d: d.clear_valid(0), r"^clear_valid\(0\): invalid argument: slave is 1 to 8$"),
+    (lambda d: d.slave_read(3, 0, 0), r"^slave_read\(3, 0, 0x00, 1\): invalid argument: channel is 1 or 2"),
+    (lambda d: d.read_registers(0, 65), r"^read_registers\(0x00, 65\): .*size 1 to 64"),
+    (lambda d: d.scan(3), r"^scan\(3\): invalid argument: channel is 1 or 2$"),
+])
+def test_wrong_argument_is_named_with_what_it_takes(chip, call, message):
+    with pytest.raises(openmb4.Error, match=message) as told:
+        call(chip.driver)
+    assert told.value.number is openmb4.Code.INVALID_ARGUMENT
+
+
 def test_bad_frame_has_a_code_and_the_next_is_good(chip):
     chip.inject({"fault": [{"kind": "wrong-crc", "slave": 1, "at_us": 0, "for_us": 30}]})
     rows = chip.driver.read_all(20)
@@ -151,6 +233,14 @@ def test_command_of_the_page_reads_the_position_of_its_scenario(page):
     run = subprocess.run([sys.executable, "-B", "-c", program], cwd=ROOT, check=True, text=True,
                          capture_output=True, env=dict(os.environ, PYTHONPATH=folder))
     assert f"position={0x2ABCDEF >> 2}," in run.stdout
+
+
+def test_configuration_of_the_page_is_the_one_it_says(monkeypatch, capsys):
+    page = (ROOT / "docs" / "python.md").read_text(encoding="utf-8")
+    monkeypatch.chdir(ROOT)
+    program, = [text for text in re.findall(r"```python\n(.*?)```", page, re.S) if "ma_hz_at_most" in text]
+    exec(program, {})
+    assert "Config(ma_hz=2500000, " in capsys.readouterr().out
 
 
 def test_first_example_of_the_page_runs(monkeypatch, capsys):

@@ -62,7 +62,26 @@ def test_value_that_does_not_fit_is_refused(chip, value):
         chip.regs.FREQS.modify(value)
 
 
+@pytest.mark.parametrize("name, right", [
+    ("FREQS", r"regs\.FREQS\.modify\(3\)"), ("FREQ", r"regs\.FREQ\.write\(3\)"),
+    ("SVALID1", r"regs\.SVALID1\.register\.write\(\)"), ("nERR", "can only be read"),
+    ("FREX", "did you mean FREQ"), ("freqs", "did you mean FREQS")])
+def test_assignment_is_refused_and_says_what_to_write(chip, name, right):
+    before = chip.clk_cycles
+    with pytest.raises(openmb4.Error, match=right) as told:
+        setattr(chip.regs, name, 3)
+    assert isinstance(told.value, AttributeError) and "\n" not in str(told.value)
+    assert chip.clk_cycles == before
+    chip.regs.FREQS.modify(4)
+    assert chip.regs.FREQS.read() == 4  # the field is still one
+
+
+def test_repr_of_registers_says_what_they_are(chip):
+    assert repr(chip.regs).startswith("<Registers of mb4: ")
+    assert repr(chip.regs.FREQS) == "<field FREQS, 5 bits in <register FREQ at 0xE6>>"
+
+
 def test_unknown_name_is_refused(chip):
-    with pytest.raises(AttributeError, match="FREQX"):
+    with pytest.raises(AttributeError, match="FREQX'; did you mean FREQS?"):
         chip.regs.FREQX.read()
     assert {"FREQS", "FREQ", "SCDATA8", "CHSEL2", "LSTOP5"} <= set(dir(chip.regs))

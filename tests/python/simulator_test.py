@@ -17,7 +17,8 @@ TABLES = {"chip": {"f_clk_hz": 20_000_000}, "channel": [{"number": 1, "slave": [
 PARALLEL = {**TABLES, "host": {"interface": "intel"}}
 
 
-@pytest.mark.parametrize("scenario", [TEXT, EXAMPLES / "resolute-26.toml"])
+@pytest.mark.parametrize("scenario", [TEXT, EXAMPLES / "resolute-26.toml",
+                                      str(EXAMPLES / "resolute-26.toml")])
 def test_scenario_text_and_file_give_the_word_of_the_scenario(scenario):
     with openmb4.Simulator(scenario) as chip:
         assert chip.time_ns == 1000
@@ -36,11 +37,84 @@ def test_scenario_dict_may_hold_64_bits_and_register_addresses():
 @pytest.mark.parametrize("scenario, message", [
     ({"chip": {"f_clk": 1}}, "scenario:1:"),
     ("[chip]\nf_clk = 1\n", "scenario:2:1: key 'f_clk'"),
-    (Path("no-such.toml"), "no-such.toml"),
+    (Path("no-such.toml"), "no-such.toml: cannot read"),
+    ("no-such.toml", "no-such.toml: cannot read: .* in /.*from_text"),
+    ("examples/resolute-26", "examples/resolute-26: cannot read: .* in /.*"),
+    ("f_clk = 1", "scenario:1:1"),
+    (7, "takes the path of a scenario, its text or a dict of its tables, not int"),
 ])
 def test_mistake_in_scenario_is_named(scenario, message):
     with pytest.raises(openmb4.Error, match=message):
         openmb4.Simulator(scenario)
+
+
+def test_a_text_of_one_line_is_told_from_a_path(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "no ending").write_text(TEXT, encoding="utf-8")
+    for scenario in ("no ending", Path("no ending")):
+        with openmb4.Simulator(scenario) as chip:
+            assert chip.sent.__self__ is chip and "biss-c" in repr(chip)
+    for text in ("", "chip.f_clk_hz = 10_000_000", "[chip]", "# x.toml"):
+        openmb4.Simulator(text).close()
+    with openmb4.Simulator.from_file("no ending") as chip:
+        assert "slave 1 biss-c of 28 bits" in repr(chip)
+    with pytest.raises(openmb4.Error, match="^scenario:1:"):
+        openmb4.Simulator.from_text("x.toml")
+
+
+def test_repr_tells_scenario_master_slaves_and_time():
+    chip = openmb4.Simulator(TEXT)
+    assert repr(chip) == "<Simulator of scenario, ic-mb4, slave 1 biss-c of 28 bits, at 1.000 us>"
+    assert repr(chip.driver) == "<Driver of scenario, not configured: call configure()>"
+    chip.driver.configure()
+    assert "ma_hz=10000000" in repr(chip.driver)
+    chip.close()
+    assert repr(chip) == "<Simulator of scenario, closed>"
+
+
+@pytest.mark.parametrize("call, code, message", [
+    (lambda c: c.set_data(2, 0), "UNKNOWN", "^set_data 2: there is no slave 2; the scenario has 1$"),
+    (lambda c: c.set_data(1, 1 << 28), "VALUE",
+     "^set_data 1: slave 1 has 28 bits: raw is 0 to 0xFFFFFFF, not 0x10000000$"),
+    (lambda c: c.set_data(1, -1), "VALUE", "raw is at most 64 bits, not -1"),
+    (lambda c: c.slave_register(9, 0), "UNKNOWN", "no slave 9; the scenario has 1"),
+    (lambda c: c.set_slave_register(9, 0, 0), "UNKNOWN", "no slave 9; the scenario has 1"),
+    (lambda c: c.sent(1), "VALUE", "no word of frame 0; it has sent no frame yet"),
+    (lambda c: c.sent(3), "UNKNOWN", "no slave 3"),
+    (lambda c: c.pin("MA9"), "UNKNOWN", "^pin MA9: there is no pin 'MA9'; did you mean MA"),
+    (lambda c: c.pin("Q"), "UNKNOWN", "no pin 'Q'; there are NCS, .*GETSENS"),
+    (lambda c: c.set_pin("GETSEN", 1), "UNKNOWN", "did you mean GETSENS"),
+    (lambda c: c.set_pin("GETSENS", 2), "VALUE", "^set_pin GETSENS: level is 0 or 1, not 2$"),
+    (lambda c: c.set_pin("EOT", 1), "DRIVEN", "^set_pin EOT: the pin is an output"),
+    (lambda c: c.run_until("EOT", 3, 1), "VALUE", "^run_until EOT: level is 0 or 1, not 3"),
+    (lambda c: c.record(("MA1", "XY1"), 10), "UNKNOWN", "^record: there is no pin 'XY1'"),
+    (lambda c: c.record(("CLK",), 10), "DRIVEN", "f_clk_hz"),
+    (lambda c: c.record(("SLO2",), 10), "UNKNOWN", "channel 2 has no line with 'SLO2'"),
+])
+def test_error_names_slave_pin_and_limit(call, code, message):
+    with openmb4.Simulator(TEXT) as chip:
+        with pytest.raises(openmb4.Error, match=message) as told:
+            call(chip)
+        assert told.value.code == f"MB4SIM_ERROR_{code}"
+        assert told.value.number is openmb4.SimulatorCode[code]
+
+
+def test_word_that_is_not_kept_is_named_with_those_that_are():
+    with openmb4.Simulator(TEXT) as chip:
+        chip.driver.configure()
+        chip.driver.read_all(3)
+        with pytest.raises(openmb4.Error, match="no word of frame 9; frames 1 to 3 are kept"):
+            chip.sent(1, 9)
+
+
+def test_other_masters_name_their_own_pins():
+    with openmb4.Simulator(EXAMPLES / "axi" / "one-encoder.toml") as chip:
+        with pytest.raises(openmb4.Error, match="no pin 'MA1'; did you mean ma1"):
+            chip.pin("MA1")
+        assert "axi, slave 1 biss-c" in repr(chip)
+    with openmb4.Simulator(EXAMPLES / "dsl" / "motor.toml") as chip:
+        with pytest.raises(openmb4.Error, match="this master has no pins"):
+            chip.pin("MA1")
 
 
 def test_spi_reads_the_version():
@@ -153,6 +227,9 @@ def test_waveform_holds_what_lies_between(tmp_path):
             assert told.value.code == "MB4SIM_ERROR_TRACE"
         written = first.read_bytes()
         assert len(written) > 1000
+        # GTKWave's view, as `mb4sim run --trace` writes it.
+        view = first.with_suffix(".gtkw").read_text(encoding="utf-8")
+        assert '[dumpfile] "first.fst"' in view and "MA1" in view
         assert chip.driver.read_frame(1).raw == 0x2ABCDEF
         with pytest.raises(openmb4.Error, match="^trace_stop: no waveform is being written"):
             chip.trace_stop()
@@ -162,8 +239,11 @@ def test_waveform_holds_what_lies_between(tmp_path):
             chip.driver.read_frame(1)
             1 / 0
         assert first.read_bytes() == written and second.stat().st_size > 1000
+        view = second.with_suffix(".gtkw")
+        view.unlink()
         with chip.trace(second):
             chip.close()
+        assert view.exists()
 
 
 def test_closed_simulator_refuses_every_call():

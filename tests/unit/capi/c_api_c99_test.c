@@ -52,6 +52,8 @@ int main(void) {
   failures += check(mb4sim_slave_frames(sim, 1) == 0, "slave_frames");
   failures += check(mb4sim_on_frame(sim, count_frame, &frames) == 0, "on_frame");
   failures += check(mb4sim_on_edge(sim, NULL, NULL) == 0, "on_edge");
+  failures += check(mb4sim_watch_pins(sim, NULL, 0, 1, NULL, NULL) == MB4SIM_ERROR_UNKNOWN,
+                    "watch_pins without a callback");
   failures +=
       check(mb4sim_trace_start(sim, "/no/such/folder/x.fst") == MB4SIM_ERROR_TRACE, "trace_start");
   failures += check(mb4sim_trace_stop(sim) == MB4SIM_ERROR_TRACE, "trace_stop");

@@ -330,6 +330,56 @@ TEST_F(CApiFirmware, OnEdge_TellsWhatThePinsShow) {
   EXPECT_EQ(mb4sim_on_edge(nullptr, &keep_edge, &edges), MB4SIM_ERROR_UNKNOWN);
 }
 
+struct PinChange {
+  size_t pin;
+  uint64_t time_ps;
+  int level;
+};
+
+void keep_change(void* context, size_t pin, uint64_t time_ps, int level) {
+  static_cast<std::vector<PinChange>*>(context)->push_back({pin, time_ps, level});
+}
+
+// The edges of the line come from another place in the simulator than the levels of its pins.
+TEST_F(CApiFirmware, WatchPins_TellsTheEdgesOfTheLineAndOtherPins) {
+  std::vector<Edge> edges;
+  ASSERT_EQ(mb4sim_on_edge(sim, &keep_edge, &edges), 0);
+  std::vector<PinChange> changes;
+  send({reg::kSpiOpcodeWriteInstruction, reg::kInstrCdm0});
+  const uint64_t begin = mb4sim_time_ns(sim);
+  const size_t before = edges.size();
+  const char* const pins[] = {"MA1", "SL1", "EOT"};
+  ASSERT_EQ(mb4sim_watch_pins(sim, pins, 3, 60'000, &keep_change, &changes), 0);
+  EXPECT_EQ(mb4sim_time_ns(sim), begin + 60'000);
+  edges.erase(edges.begin(), edges.begin() + static_cast<std::ptrdiff_t>(before));
+  constexpr unsigned kPlaces[] = {MB4SIM_EDGE_MA, MB4SIM_EDGE_SL};
+  for (size_t pin = 0; pin < 2; ++pin) {
+    const std::vector<Edge> line = of_place(edges, kPlaces[pin]);
+    std::vector<PinChange> seen;
+    std::copy_if(changes.begin() + 3, changes.end(), std::back_inserter(seen),
+                 [&](const PinChange& change) { return change.pin == pin; });
+    ASSERT_EQ(seen.size(), line.size());
+    ASSERT_GT(seen.size(), 10U);
+    for (size_t i = 0; i < seen.size(); ++i) {
+      EXPECT_EQ(seen[i].time_ps, line[i].time_ps);
+      EXPECT_EQ(seen[i].level, line[i].level);
+    }
+  }
+  EXPECT_EQ(changes[2].pin, 2U);
+  EXPECT_EQ(changes.back().pin, 2U);  // EOT rises behind the frame
+  EXPECT_EQ(changes.back().level, 1);
+
+  const char* const wrong[] = {"MA1", "MA3", "CLK"};
+  changes.clear();
+  EXPECT_EQ(mb4sim_watch_pins(sim, wrong, 2, 10, &keep_change, &changes), MB4SIM_ERROR_UNKNOWN);
+  EXPECT_EQ(mb4sim_watch_pins(sim, wrong + 2, 1, 10, &keep_change, &changes), MB4SIM_ERROR_DRIVEN);
+  EXPECT_EQ(mb4sim_watch_pins(sim, nullptr, 1, 10, &keep_change, &changes), MB4SIM_ERROR_UNKNOWN);
+  EXPECT_EQ(mb4sim_watch_pins(sim, pins, 1, 10, nullptr, nullptr), MB4SIM_ERROR_UNKNOWN);
+  EXPECT_EQ(mb4sim_watch_pins(nullptr, pins, 1, 10, &keep_change, &changes), MB4SIM_ERROR_UNKNOWN);
+  EXPECT_TRUE(changes.empty());
+  EXPECT_EQ(mb4sim_time_ns(sim), begin + 60'000);
+}
+
 TEST_F(CApiFirmware, EdgesOfACable_ComeAfterHalfOfItsDelay) {
   mb4sim_close(sim);
   sim = mb4sim_open(

@@ -28,6 +28,33 @@ typedef struct {
   mb4_frame frame;
 } openmb4_row;
 
+/* What a scenario has, for messages. */
+typedef struct {
+  char master[16];     /* "ic-mb4", "axi" ... */
+  uint32_t f_clk_hz;   /* of the system clock */
+  uint32_t slaves;     /* members of `slave` in use */
+  struct {
+    uint8_t number; /* as mb4sim_slave_set_data() counts */
+    uint8_t channel;
+    uint8_t data_bits;
+    char protocol[13];
+  } slave[64];
+} openmb4_scenario;
+
+/* A new level that openmb4_record() has seen; `name` is the index of what has it. */
+typedef struct {
+  uint64_t time_ps;
+  uint32_t name;
+  uint32_t level;
+} openmb4_edge;
+
+/* What openmb4_record() has seen, in the order of time. */
+typedef struct {
+  const openmb4_edge *edges;
+  size_t count;
+  void *memory;
+} openmb4_edges;
+
 /* Call it before every other call on `session`. `sim` stays the caller's. */
 void openmb4_begin(openmb4_session *session, mb4sim *sim);
 
@@ -41,6 +68,23 @@ size_t openmb4_read(openmb4_session *session, bool automatic, openmb4_row *rows,
  * line in `error`, as mb4sim_open() does. */
 int openmb4_config(const char *scenario, bool is_path, mb4_config *config, char *error,
                    size_t error_size);
+
+/* Lets `ns` pass and keeps every new level of `n` wires, first their present ones. A wire is a pin
+ * (place[i] is -1, name[i] its name), or a place of a line: place[i] is MB4SIM_EDGE_..., channel[i]
+ * its channel. Returns 0 or the error of mb4sim_watch_pins() or mb4sim_on_edge(), whose callback it
+ * replaces. `*edges` is to be freed in every case. */
+int openmb4_record(mb4sim *sim, const char *const *name, const int *place, const unsigned *channel,
+                   size_t n, uint64_t ns, openmb4_edges *edges);
+void openmb4_free(openmb4_edges *edges);
+
+/* The scenario in short; its arguments are those of openmb4_config(). */
+int openmb4_describe(const char *scenario, bool is_path, openmb4_scenario *found, char *error,
+                     size_t error_size);
+
+/* Writes GTKWave's view of a finished waveform to `view`, as `mb4sim run --trace` does. Returns 0,
+ * or MB4SIM_ERROR_TRACE and one line in `error`. */
+int openmb4_write_view(const char *scenario, bool is_path, const char *trace, const char *view,
+                       char *error, size_t error_size);
 
 #ifdef __cplusplus
 }

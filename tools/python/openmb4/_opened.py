@@ -10,6 +10,7 @@ from typing import Any, Callable, List, Mapping, Optional, Tuple, Union
 
 from ._library import Error, ffi, lib, simulator_error
 
+Scenario = Union[str, "os.PathLike[str]", Mapping[str, Any]]
 ERROR_BYTES = 1000
 STREAM_WORDS = 64  # more than any master has in a beat
 
@@ -29,30 +30,65 @@ def to_toml(value: Any) -> str:
     return json.dumps(value, ensure_ascii=False) if isinstance(value, str) else repr(float(value))
 
 
+class Text(str):
+    """A text that is no path, whatever it looks like."""
+
+
+def is_path(scenario: Any) -> bool:
+    """A pathlib.Path, or a text of one line that is no TOML: it ends with .toml or sets nothing."""
+    if not isinstance(scenario, str) or isinstance(scenario, Text):
+        return isinstance(scenario, os.PathLike)
+    text = scenario.strip()
+    if not text or "\n" in text or text[0] in "#[":
+        return False
+    return text.endswith(".toml") or "=" not in text
+
+
 def document(tables: Mapping[str, Any]) -> str:
+    """The TOML text of a dict of tables."""
     return "".join(f"{key} = {to_toml(value)}\n" for key, value in tables.items())
 
 
 class Opened:
     """The C object of a simulator with its lock, and the accesses of the host."""
 
-    def __init__(self, scenario: Union[str, os.PathLike, Mapping[str, Any]], /):
+    def __init__(self, scenario: Scenario, /):
         self._lock = threading.RLock()
         self._running = False
         self._raised: Optional[BaseException] = None
         self._callback: Any = ffi.NULL
         self._sim: Any = None
-        self._is_path = isinstance(scenario, os.PathLike)
-        self._scenario = (os.fsencode(scenario) if self._is_path else
-                          (scenario if isinstance(scenario, str) else document(scenario)).encode())
+        self._is_path = is_path(scenario)
+        if isinstance(scenario, Mapping):
+            self._scenario = document(scenario).encode()
+        elif isinstance(scenario, (str, os.PathLike)):
+            self._scenario = os.fsencode(scenario) if self._is_path else str(scenario).encode()
+        else:
+            raise Error("Simulator takes the path of a scenario, its text or a dict of its tables, "
+                        f"not {type(scenario).__name__}")
         if b"\0" in self._scenario:
             raise Error("scenario: holds a character of code 0")
         error = ffi.new("char[]", ERROR_BYTES)
         opened = lib.mb4sim_open_file if self._is_path else lib.mb4sim_open
         sim = opened(self._scenario, error, ERROR_BYTES)
         if sim == ffi.NULL:
-            raise Error(ffi.string(error).decode(errors="replace"))
+            said = ffi.string(error).decode(errors="replace")
+            if self._is_path and isinstance(scenario, str) and not os.path.exists(scenario):
+                said += (f" in {os.getcwd()} (a text of one line is a path; "
+                         "Simulator.from_text() takes any text)")
+            raise Error(said)
         self._sim = ffi.gc(sim, lib.mb4sim_close)
+
+    @property
+    def _name(self) -> str:
+        """The scenario in a repr."""
+        return os.fsdecode(self._scenario) if self._is_path else "scenario"
+
+    def _describe(self) -> Any:
+        """openmb4_scenario of the scenario; None where it cannot be read any more."""
+        found, error = ffi.new("openmb4_scenario *"), ffi.new("char[]", ERROR_BYTES)
+        failed = lib.openmb4_describe(self._scenario, self._is_path, found, error, ERROR_BYTES)
+        return None if failed else found
 
     def close(self) -> None:
         """Ends the simulator; a second call does nothing."""
@@ -80,7 +116,7 @@ class Opened:
 
     def _do(self, what: str, function: Callable[..., int], *arguments: Any) -> int:
         with self._lock:
-            result = self._call(function, self._sim, *arguments)
+            result: int = self._call(function, self._sim, *arguments)
             if result < 0:
                 raise simulator_error(result, what)
             return result
@@ -99,7 +135,7 @@ class Opened:
         """One read cycle of the parallel bus."""
         value = ffi.new("uint8_t *")
         self._do("bus_read", lib.mb4sim_bus_read, address, value)
-        return value[0]
+        return int(value[0])
 
     def axi_write(self, address: int, value: int, strobe: int = 0xF) -> None:
         """One write of a bus of 32-bit words (AXI4-Lite); bit b of strobe lets byte b be written."""
@@ -111,7 +147,7 @@ class Opened:
         value = ffi.new("uint32_t *")
         if self._do(f"axi_read 0x{address:02X}", lib.mb4sim_axi_read, address, value):
             raise Error(f"axi_read 0x{address:02X}: the bus answered with an error")
-        return value[0]
+        return int(value[0])
 
     def mem_write(self, address: int, data: bytes) -> None:
         """Writes bytes from any address of the bus of words on, one access a word."""

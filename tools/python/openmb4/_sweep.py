@@ -57,7 +57,7 @@ class _Store:
     @staticmethod
     def _read(line: str, place: str, count: int) -> Dict[str, Any]:
         try:
-            entry = json.loads(line)
+            entry: Dict[str, Any] = json.loads(line)
             if type(entry["index"]) is int and 0 <= entry["index"] < count and "result" in entry:
                 return entry
         except (ValueError, TypeError, KeyError):
@@ -66,6 +66,7 @@ class _Store:
 
     def _write(self) -> None:
         """Writes all at once: the file is the old one or the new one, whenever the process ends."""
+        assert self._path is not None
         new = self._path.with_name(self._path.name + ".new")
         with new.open("w", encoding="utf-8") as output:
             output.write(self._head)
@@ -87,7 +88,7 @@ class _Store:
 
 
 def sweep(function: Callable[[Point], Any], grid: Grid, client: Any = None, *,
-          file: Union[None, str, os.PathLike] = None, workers: Optional[int] = None,
+          file: "Union[None, str, os.PathLike[str]]" = None, workers: Optional[int] = None,
           progress: Optional[bool] = None) -> List[Any]:
     """Calls `function(point)` for every point of `grid` and returns the results in grid order.
 

@@ -3,7 +3,7 @@
 """A BiSS C encoder in plain Python for test benches that have their own time, such as cocotb. The
 simulator's encoders know more: registers, commands, chains, faults (sim/README.md)."""
 
-from typing import Callable, Union
+from typing import Callable, List, Union
 
 from ._library import Error
 
@@ -43,7 +43,7 @@ class BissCEncoder:
         self._polynomial, self._start = polynomial, crc_start
         self._ma = 1
         self._rising = -1  # rising edges of this frame; -1: idle
-        self._stream: list = []
+        self._stream: List[int] = []
         self.slo = 1
         self.cdm = 0
         self.frames = 0

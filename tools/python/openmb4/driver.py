@@ -2,18 +2,24 @@
 # SPDX-License-Identifier: Apache-2.0
 """The driver of drivers/ on a simulated chip, through its C binding."""
 
-from typing import Any, Callable, List, NamedTuple, Tuple
+from typing import Any, Callable, List, Optional, Sequence, Tuple
 
 import numpy as np
+import numpy.typing as npt
 
 from ._library import Error, driver_error, ffi, lib, simulator_error
 from ._opened import Opened
+from .config import Config, from_c, to_c, what_is_right
+from .reading import Identity, Reading
+from .table import to_pandas
 
-# mb4_config of mb4.h: its members are read and assigned by their C names.
-Config = Any
+# What the arguments of a call take: the driver says only that one is out of its range.
+_SLAVE = "slave is 1 to 8"
+_ACCESS = "channel is 1 or 2, slave_id 0 to 7, address and size together at most 128, size 1 to 128"
+_REGISTERS = "address is 0 to 0xFF, size 1 to 64, both together at most 256"
 
 
-def _dtype(kind: Any) -> np.dtype:
+def _dtype(kind: Any) -> "np.dtype[Any]":
     """The numpy type with the memory layout of a C type."""
     if kind.kind == "primitive":
         return np.dtype("?" if kind.cname == "_Bool" else kind.cname.removesuffix("_t"))
@@ -28,37 +34,6 @@ def _dtype(kind: Any) -> np.dtype:
 ROW = _dtype(ffi.typeof("openmb4_row"))
 
 
-class _Reading(NamedTuple):
-    raw: int
-    position: int
-    crc: int
-    crc_stored: bool
-    slave_error: bool
-    slave_warning: bool
-    slave: int
-
-
-class Reading(_Reading):
-    """mb4_reading of mb4.h."""
-
-    __slots__ = ()
-
-    def __getattr__(self, name: str) -> Any:
-        if name in ("error", "warning"):
-            raise AttributeError(f"'{name}' of a Reading is called 'slave_{name}'")
-        raise AttributeError(f"a Reading has no '{name}'")
-
-
-class Identity(NamedTuple):
-    """mb4_identity of mb4.h: what one ID of a bus has answered."""
-
-    device_id: bytes
-    manufacturer: bytes
-    eds_bank: int
-    has_identity: bool
-    has_eds: bool
-
-
 class Driver:
     """The calls of mb4.h by their names. Each raises Error with the driver's words. The transfers
     are SPI: with a parallel host they fail."""
@@ -66,16 +41,26 @@ class Driver:
     def __init__(self, simulator: Opened):
         self._simulator = simulator
         self._session = ffi.new("openmb4_session *")
+        self._used: Optional[Config] = None  # what configure() has written
         lib.openmb4_begin(self._session, simulator._sim)
         self._device = ffi.addressof(self._session[0], "device")
 
-    def _do(self, function: Callable[..., Any], *arguments: Any) -> None:
+    def __repr__(self) -> str:
+        how = "not configured: call configure()" if self._used is None else repr(self._used)
+        return f"<Driver of {self._simulator._name}, {how}>"
+
+    def _do(self, what: str, function: Callable[..., Any], *arguments: Any, right: str = "",
+            config: Optional[Config] = None) -> None:
+        """`what` is the call for messages, `right` tells what its arguments take."""
         with self._simulator._lock:
             self._begin()
             result = self._simulator._call(function, self._device, *arguments)
             self._check_simulator()
-        if result.code != lib.MB4_OK:
-            raise driver_error(result)
+        if result.code == lib.MB4_OK:
+            return
+        if result.code != lib.MB4_INVALID_ARGUMENT:
+            right = what_is_right(config, result) if config else ""
+        raise driver_error(result, what, right)
 
     def _begin(self) -> None:
         self._session.error = 0
@@ -87,34 +72,40 @@ class Driver:
             raise simulator_error(self._session.error, "driver")
 
     def config(self) -> Config:
-        """The configuration for all slaves of the scenario, as `mb4sim run` makes it: an mb4_config,
-        whose members may be changed before configure()."""
+        """The configuration for all slaves of the scenario, as `mb4sim run` makes it. Its members may
+        be changed before configure()."""
         config, error = ffi.new("mb4_config *"), ffi.new("char[]", 1000)
         simulator = self._simulator
         if lib.openmb4_config(simulator._scenario, simulator._is_path, config, error, 1000):
             raise Error(ffi.string(error).decode(errors="replace"), "MB4SIM_ERROR_VALUE")
-        return config
+        return from_c(config)
 
-    def configure(self, config: Config = None) -> None:
+    def configure(self, config: Optional[Config] = None) -> None:
         """Checks and writes a configuration, by default config()."""
-        self._do(lib.mb4_configure, self.config() if config is None else config)
+        used = self.config() if config is None else config
+        given = to_c(used)
+        self._do("configure", lib.mb4_configure, given, config=used)
+        self._used = from_c(given)
 
     def probe(self) -> Tuple[int, int]:
         """VERSION and REVISION of the chip."""
         version, revision = ffi.new("uint8_t *"), ffi.new("uint8_t *")
-        self._do(lib.mb4_probe, version, revision)
+        self._do("probe", lib.mb4_probe, version, revision)
         return version[0], revision[0]
 
     def verify(self) -> None:
-        self._do(lib.mb4_verify)
+        """Compares the configuration in the chip with that of configure()."""
+        self._do("verify", lib.mb4_verify)
 
     def reset(self) -> None:
-        self._do(lib.mb4_reset)
+        """Brings the chip to the state after its reset; then it is to be configured."""
+        self._do("reset", lib.mb4_reset)
+        self._used = None
 
     def initialize(self) -> List[int]:
         """Line delay of both channels in quarters of a period of MA."""
         quarters = ffi.new("uint8_t[]", lib.MB4_CHANNELS)
-        self._do(lib.mb4_initialize, quarters)
+        self._do("initialize", lib.mb4_initialize, quarters)
         return list(quarters)
 
     def read_frame(self, slave: int) -> Reading:
@@ -122,7 +113,7 @@ class Driver:
         MB4_SLAVE_ERROR, and its `reading` is what the slave has sent."""
         reading = ffi.new("mb4_reading *")
         try:
-            self._do(lib.mb4_read_frame, slave, reading)
+            self._do(f"read_frame({slave})", lib.mb4_read_frame, slave, reading, right=_SLAVE)
         except Error as error:
             if error.code == "MB4_SLAVE_ERROR":
                 error.reading = self._reading(reading)
@@ -133,7 +124,9 @@ class Driver:
     def _reading(reading: Any) -> Reading:
         return Reading(*(getattr(reading, name) for name in Reading._fields))
 
-    def _rows(self, automatic: bool, count: int) -> np.ndarray:
+    def _rows(self, automatic: bool, count: int) -> npt.NDArray[Any]:
+        if count < 0:
+            raise Error(f"count is 0 or more, not {count}")
         rows = np.zeros(count, ROW)
         memory = ffi.from_buffer("openmb4_row[]", rows, require_writable=True)
         with self._simulator._lock:
@@ -141,76 +134,96 @@ class Driver:
             self._simulator._call(lib.openmb4_read, self._session, automatic, memory, count)
             self._check_simulator()
         if count and rows["result"]["code"][0] in (lib.MB4_NOT_CONFIGURED, lib.MB4_WRONG_MODE):
-            raise driver_error(memory[0].result)
+            raise driver_error(memory[0].result, "automatic_next" if automatic else "read_all")
         return rows
 
-    def read_all(self, count: int = 1) -> np.ndarray:
+    def read_all(self, count: int = 1) -> npt.NDArray[Any]:
         """Reads frames of all slaves: an array of `count` rows of openmb4_row (native/). Its columns
         are rows["time_ns"], rows["result"] and of slave s rows["frame"]["reading"]["position"][:, s -
-        1] with rows["frame"]["code"][:, s - 1], which is 0 for a good word. A word whose nE is 0 has
-        the code of MB4_SLAVE_ERROR, 21: its position is not to be trusted."""
+        1] with rows["frame"]["code"][:, s - 1], a Code: OK for a good word. A word whose nE is 0 has
+        Code.SLAVE_ERROR: its position is not to be trusted."""
         return self._rows(False, count)
 
+    def read_table(self, count: int = 1, slaves: Optional[Sequence[int]] = None) -> Any:
+        """The frames of read_all() as a pandas.DataFrame: openmb4.to_pandas()."""
+        return to_pandas(self.read_all(count), slaves)
+
     def write_actuator(self, slave: int, word: int) -> None:
-        self._do(lib.mb4_write_actuator, slave, word)
+        """Sends a word to an actuator in one frame."""
+        self._do(f"write_actuator({slave}, {word:#x})", lib.mb4_write_actuator, slave, word,
+                 right=f"{_SLAVE}, word at most its data_bits")
 
     def break_transmission(self) -> None:
-        self._do(lib.mb4_break_transmission)
+        """Ends what runs on the lines: BREAK."""
+        self._do("break_transmission", lib.mb4_break_transmission)
 
     def read_status(self) -> bytes:
         """Bytes 0xF0..0xF4."""
         status = ffi.new("uint8_t[]", lib.MB4_STATUS_BYTES)
-        self._do(lib.mb4_read_status, status)
+        self._do("read_status", lib.mb4_read_status, status)
         return bytes(status)
 
     def clear_valid(self, slave: int) -> None:
-        self._do(lib.mb4_clear_valid, slave)
+        """Clears SVALID of a slave."""
+        self._do(f"clear_valid({slave})", lib.mb4_clear_valid, slave, right=_SLAVE)
 
     def automatic_start(self) -> None:
-        self._do(lib.mb4_automatic_start)
+        """Starts automatic frames, by Config.frame_start."""
+        self._do("automatic_start", lib.mb4_automatic_start)
 
     def automatic_stop(self) -> None:
-        self._do(lib.mb4_automatic_stop)
+        """Ends automatic frames."""
+        self._do("automatic_stop", lib.mb4_automatic_stop)
 
     def automatic_restart(self) -> None:
-        self._do(lib.mb4_automatic_restart)
+        """Starts automatic frames again after an error."""
+        self._do("automatic_restart", lib.mb4_automatic_restart)
 
-    def automatic_next(self, count: int = 1) -> np.ndarray:
+    def automatic_next(self, count: int = 1) -> npt.NDArray[Any]:
         """The next frames of automatic operation, in the form of read_all()."""
         return self._rows(True, count)
 
     def slave_read(self, channel: int, slave_id: int, address: int, size: int = 1) -> bytes:
         """Reads registers of a slave through control communication."""
         data = ffi.new("uint8_t[]", size)
-        self._do(lib.mb4_slave_read, channel, slave_id, address, data, size)
+        self._do(f"slave_read({channel}, {slave_id}, 0x{address:02X}, {size})", lib.mb4_slave_read,
+                 channel, slave_id, address, data, size, right=_ACCESS)
         return bytes(data)
 
     def slave_write(self, channel: int, slave_id: int, address: int, data: bytes) -> None:
-        self._do(lib.mb4_slave_write, channel, slave_id, address, bytes(data), len(data))
+        """Writes registers of a slave through control communication."""
+        self._do(f"slave_write({channel}, {slave_id}, 0x{address:02X}, {len(data)} bytes)",
+                 lib.mb4_slave_write, channel, slave_id, address, bytes(data), len(data),
+                 right=_ACCESS)
 
     def slave_command(self, channels: int, ids: int, code: int,
                       test_acknowledge: bool = False) -> None:
         """A command; bit masks of channels and IDs as in mb4_command."""
-        self._do(lib.mb4_slave_command,
-                 ffi.new("mb4_command *", [channels, ids, code, test_acknowledge]))
+        self._do("slave_command", lib.mb4_slave_command,
+                 ffi.new("mb4_command *", [channels, ids, code, test_acknowledge]),
+                 right="channels is 1 to 3, code 0 to 3, test_acknowledge not with ids 0")
 
     def slave_activate(self, ids: int = 0, ids_2: int = 0) -> None:
         """Switches the data and the control communication of BiSS C slaves on. Bit n of `ids` is
         ID n of channel 1, of `ids_2` that of channel 2; both 0: those of the enabled slaves."""
-        self._do(lib.mb4_slave_activate, ids, ids_2)
+        self._do("slave_activate", lib.mb4_slave_activate, ids, ids_2)
 
     def scan(self, channel: int) -> List[Identity]:
         """The identities of the IDs that answer on a channel."""
         found, count = ffi.new("mb4_identity[8]"), ffi.new("uint8_t *")
-        self._do(lib.mb4_scan, channel, found, 8, count)
+        self._do(f"scan({channel})", lib.mb4_scan, channel, found, 8, count,
+                 right="channel is 1 or 2")
         return [Identity(bytes(one.device_id), bytes(one.manufacturer), one.eds_bank,
                          one.has_identity, one.has_eds) for one in found[0:count[0]]]
 
     def read_registers(self, address: int, size: int = 1) -> bytes:
         """Registers of the chip."""
         data = ffi.new("uint8_t[]", size)
-        self._do(lib.mb4_read_registers, address, data, size)
+        self._do(f"read_registers(0x{address:02X}, {size})", lib.mb4_read_registers, address, data,
+                 size, right=_REGISTERS)
         return bytes(data)
 
     def write_registers(self, address: int, data: bytes) -> None:
-        self._do(lib.mb4_write_registers, address, bytes(data), len(data))
+        """Writes registers of the chip, all bits of them."""
+        self._do(f"write_registers(0x{address:02X}, {len(data)} bytes)", lib.mb4_write_registers,
+                 address, bytes(data), len(data), right=_REGISTERS)

@@ -7,10 +7,11 @@ from typing import Any, Optional, Sequence
 
 import matplotlib.pyplot as plt
 import numpy as np
+import numpy.typing as npt
 from matplotlib.axes import Axes
 
 from ._library import Error
-from .simulator import Edges, Simulator
+from .record import Edges
 
 GOOD, BAD, LINE = "#0072b2", "#d55e00", "#333333"  # colours that the colour-blind tell apart
 
@@ -25,13 +26,13 @@ def timing(record: Edges, axes: Optional[Axes] = None) -> Axes:
     axes = _axes(axes, 0.8 + 0.6 * len(record.pins))
     for row, name in enumerate(reversed(list(record.pins))):
         times, levels = record.pins[name]
-        times = np.append(times, record.end_ns)
+        times = np.append(times, record.end_ps)
         levels = np.append(levels, levels[-1])
-        axes.step((times - record.start_ns) / 1000, row + 0.7 * levels, where="post", color=LINE,
+        axes.step((times - record.start_ps) / 1e6, row + 0.7 * levels, where="post", color=LINE,
                   linewidth=1.2)
     axes.set_yticks([row + 0.35 for row in range(len(record.pins))], list(record.pins)[::-1])
     axes.tick_params(axis="y", length=0)
-    axes.set_xlim(0, (record.end_ns - record.start_ns) / 1000)
+    axes.set_xlim(0, (record.end_ps - record.start_ps) / 1e6)
     axes.set_xlabel("time / us")
     axes.spines[["top", "right", "left"]].set_visible(False)
     return axes
@@ -51,10 +52,10 @@ def eye(record: Edges, ma: str = "MA1", sl: str = "SL1", axes: Optional[Axes] = 
     times, levels = record.pins[sl]
     for edge in rising[1:-1]:
         first, last = np.searchsorted(times, (edge - period, edge + period))
-        inside = np.concatenate(((edge - period,), times[first:last], (edge + period,)))
+        inside = np.pad(times[first:last] - edge, 1, constant_values=(-period, period))
         values = levels[max(first - 1, 0):last]
         values = np.concatenate((values, values[-1:]))
-        axes.step((inside - edge)[-len(values):], values, where="post", color=GOOD, alpha=0.15,
+        axes.step(inside[-len(values):] / 1000, values, where="post", color=GOOD, alpha=0.15,
                   linewidth=1.2)
     axes.axvline(0, color=BAD, linewidth=1.0, label=f"{ma} rises")
     axes.set_yticks((0, 1))
@@ -64,7 +65,7 @@ def eye(record: Edges, ma: str = "MA1", sl: str = "SL1", axes: Optional[Axes] = 
     return axes
 
 
-def positions(rows: np.ndarray, slave: int = 1, expected: Optional[Sequence[int]] = None,
+def positions(rows: npt.NDArray[Any], slave: int = 1, expected: Optional[Sequence[int]] = None,
               axes: Optional[Axes] = None) -> Any:
     """Position over time of the rows of Driver.read_all() or automatic_next(). Frames without a good
     word of this slave are ticks at the lower edge. With `expected`, one value a row, a second diagram
@@ -75,7 +76,7 @@ def positions(rows: np.ndarray, slave: int = 1, expected: Optional[Sequence[int]
         raise Error(f"positions: {len(expected)} expected values for {len(rows)} rows")
     if expected is not None and axes is None:
         axes = plt.subplots(2, 1, figsize=(9.0, 5.0), sharex=True, layout="constrained")[1]
-    both = (_axes(axes),) if expected is None else tuple(axes)
+    both = (_axes(axes),) if expected is None else tuple(axes if axes is not None else ())
     time = (rows["time_ns"] - rows["time_ns"][:1]) / 1e6
     frame = rows["frame"]
     good = frame["code"][:, slave - 1] == 0

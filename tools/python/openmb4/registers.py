@@ -6,7 +6,7 @@ import json
 import re
 from typing import Any, Dict, List, Protocol, Union
 
-from ._library import HERE, Error
+from ._library import HERE, Error, NameMistake, similar
 from ._opened import Opened
 
 READ, WRITE = 0x03, 0x02  # SPI opcodes
@@ -18,9 +18,11 @@ class Bus(Protocol):
     bits: int  # of a register
     simulator: Opened
 
-    def read(self, address: int) -> int: ...
+    def read(self, address: int) -> int:
+        """The register at an address."""
 
-    def write(self, address: int, value: int) -> None: ...
+    def write(self, address: int, value: int) -> None:
+        """Writes the register at an address."""
 
 
 class ChipBus:
@@ -32,6 +34,7 @@ class ChipBus:
         self.simulator = simulator
 
     def read(self, address: int) -> int:
+        """The register at an address."""
         try:
             return self.simulator.spi(bytes((READ, address, 0)))[2]
         except Error as error:
@@ -40,6 +43,7 @@ class ChipBus:
             return self.simulator.bus_read(address)
 
     def write(self, address: int, value: int) -> None:
+        """Writes the register at an address."""
         try:
             self.simulator.spi(bytes((WRITE, address, value)))
         except Error as error:
@@ -57,9 +61,11 @@ class AxiBus:
         self.simulator = simulator
 
     def read(self, address: int) -> int:
+        """The register at an address."""
         return self.simulator.axi_read(address)
 
     def write(self, address: int, value: int) -> None:
+        """Writes the register at an address."""
         self.simulator.axi_write(address, value)
 
 
@@ -89,19 +95,22 @@ class Register:
         return f"<register {self.name} at 0x{self.address:02X}>"
 
     def read(self) -> int:
+        """The whole register."""
         return self._bus.read(self.address)
 
     def write(self, value: int) -> None:
         """Writes all bits."""
         if not 0 <= value < 1 << self._bus.bits:
-            raise Error(f"{self.name}: {value} is no {'byte' if self._bus.bits == 8 else 'word'}")
+            raise Error(f"{self.name}: {value} is no {'byte' if self._bus.bits == 8 else 'word'}; it "
+                        f"is 0 to 0x{(1 << self._bus.bits) - 1:X}")
         self._bus.write(self.address, value)
 
 
 class Field:
     """Some bits of a register, or of several bytes in a row (SCDATA, SCRCSTART)."""
 
-    def __init__(self, bus: Bus, name: str, parts: List[dict], registers: Dict[int, Register]):
+    def __init__(self, bus: Bus, name: str, parts: List[Dict[str, Any]],
+                 registers: Dict[int, Register]):
         self.name = name
         self.access: str = parts[0]["access"]
         self.width: int = sum(part["width"] for part in parts)
@@ -117,11 +126,17 @@ class Field:
         return self._parts[0][0]
 
     def read(self) -> int:
+        """The bits of the field as a number."""
         value = shift = 0
         for register, lsb, width in self._parts:
             value |= (register.read() >> lsb & (1 << width) - 1) << shift
             shift += width
         return value
+
+    @property
+    def modifies(self) -> bool:
+        """modify() is possible."""
+        return self.access not in ("ro", "rom", "w0c") and self.register.name != "INSTR"
 
     def modify(self, value: int) -> None:
         """Reads the register, changes the bits of this field, writes the register. Refused where
@@ -129,11 +144,12 @@ class Field:
         written 0 clears what came in meanwhile, and at fields that are only read."""
         if self.access in ("ro", "rom"):
             raise Error(f"{self.name}: can only be read")
-        if self.access == "w0c" or self.register.name == "INSTR":
+        if not self.modifies:
             raise Error(f"{self.name}: a read-modify-write of {self.register.name} does harm; "
                         f"write the whole register, regs.{self.name}.register.write()")
         if not 0 <= value < 1 << self.width:
-            raise Error(f"{self.name}: {value} has more than {self.width} bits")
+            raise Error(f"{self.name}: {value} has more than {self.width} bits; it is 0 to "
+                        f"{(1 << self.width) - 1}")
         with self._bus.simulator._lock:
             for register, lsb, width in self._parts:
                 mask = (1 << width) - 1
@@ -151,10 +167,11 @@ class Registers:
     """
 
     def __init__(self, bus: Bus, master: str):
+        self._master = master
         registers = {name: Register(bus, name, address)
                      for name, address in _addresses(master).items()}
         by_address = {register.address: register for register in registers.values()}
-        fields: Dict[str, List[dict]] = {}
+        fields: Dict[str, List[Dict[str, Any]]] = {}
         table = json.loads((HERE / f"{master}_regs.json").read_text(encoding="utf-8"))
         for field in table["fields"] + table.get("alternate_fields", []):
             if field["access"] != "rom":
@@ -167,13 +184,37 @@ class Registers:
 
     def __getitem__(self, name: str) -> Any:
         if name not in self._names:
-            raise Error(f"no register or field '{name}'")
+            raise self._unknown(name)
         return self._names[name]
 
     def __getattr__(self, name: str) -> Any:
-        if name.startswith("__") or name not in self._names:
-            raise AttributeError(f"no register or field '{name}'")
+        if name.startswith("_") or name not in self._names:
+            raise self._unknown(name)
         return self._names[name]
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        if name.startswith("_"):
+            return object.__setattr__(self, name, value)
+        if name not in self._names:
+            raise self._unknown(name)
+        one = self._names[name]
+        place = f"{'' if self._master == 'mb4' else self._master + '_'}regs.{name}"
+        if isinstance(one, Register):
+            how = f"{place}.write({value!r}) writes the register"
+        elif one.modifies:
+            how = f"{place}.modify({value!r}) writes these bits"
+        elif one.access in ("ro", "rom"):
+            how = "this one can only be read"
+        else:
+            how = f"{place}.register.write() writes its register as a whole"
+        raise NameMistake(f"{name}: a register is not assigned; {how}")
+
+    def _unknown(self, name: str) -> NameMistake:
+        names = () if name.startswith("_") else self._names
+        return NameMistake(f"no register or field '{name}'{similar(name, names)}")
+
+    def __repr__(self) -> str:
+        return f"<Registers of {self._master}: {len(self._names)} names, dir() lists them>"
 
     def __dir__(self) -> List[str]:
         return sorted(self._names)
