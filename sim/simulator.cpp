@@ -268,6 +268,21 @@ Slave* Simulator::slave(unsigned number) {
   return const_cast<Slave*>(std::as_const(*this).slave(number));
 }
 
+std::vector<Hint> Simulator::hints(std::uint64_t missed) {
+  std::vector<HintLine> lines;
+  for (const ChannelConfig& channel : scenario_.channels) {
+    const Line& line = *lines_[channel.number - 1].line;
+    const LineProtocol protocol = channel.protocol();
+    HintLine told{channel.number, line.round_trip(), protocol.key, protocol.title, {}};
+    unsigned number = scenario_.master->first_slave(channel.number);
+    for (std::size_t i = 0; i < channel.slaves.size(); ++i, ++number) {
+      told.devices.push_back({number, &*channel.slaves[i].device, line.slave(i).sends_data()});
+    }
+    lines.push_back(std::move(told));
+  }
+  return master_->hints(lines, missed);
+}
+
 void Simulator::refresh_lines() {
   check_alive();
   for (const Place& place : lines_) {

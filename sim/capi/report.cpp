@@ -36,7 +36,14 @@ std::string report_json(Simulator& simulator, const std::vector<FaultStory>& sto
     out += (i == 0 ? "\n  " : ",\n  ") + ("{\"item\": " + json_text(violation.item)) +
            ", \"text\": " + json_text(violation.text) + "}";
   }
-  return out + "]}}\n";
+  out += "]}, \"hints\": [";
+  const std::vector<Hint> hints = simulator.hints();
+  for (std::size_t i = 0; i < hints.size(); ++i) {
+    out += (i == 0 ? "\n  " : ",\n  ") + ("{\"kind\": " + json_text(hints[i].kind)) +
+           ", \"place\": " + json_text(hints[i].place) + ", \"text\": " + json_text(hints[i].text) +
+           "}";
+  }
+  return out + "]}\n";
 }
 
 }  // namespace mb4::sim

@@ -39,6 +39,8 @@ struct DeviceTraits {
   unsigned busy_periods = 0;  // periods of MA between acknowledge and start bit beyond one
   // Time without an edge of MA after which a frame is over, ps. 0: the device measures MA.
   Time timeout = 0;
+  Time response = 0;     // from the edge that asks for a bit to this bit, at the device
+  bool repeats = false;  // the word follows once more if the master goes on
   bool gray = false;
   bool actuator = false;   // it takes words from MO
   bool stop_bit = false;   // actuator: a 0 precedes its data

@@ -39,6 +39,8 @@ class Slave {
     if (fault == slave_fault::kWrongCrc) wrong_crc_ = on;
   }
   bool silent() const { return silent_; }
+  // False: the master has told the device to leave its data out of the frames.
+  virtual bool sends_data() const { return true; }
   // Number of frames in which the slave has sent a word.
   std::uint64_t frames() const { return frames_; }
   // The raw word that the slave latched for its frame `frame`, from 1 on. Nothing if there was no

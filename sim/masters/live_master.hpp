@@ -6,7 +6,9 @@
 #define MB4SIM_LIVE_MASTER_HPP_
 
 #include <cstdint>
+#include <span>
 #include <string_view>
+#include <vector>
 
 #include "sim/core/trace_error.hpp"
 #include "sim/core/trace_file.hpp"
@@ -14,6 +16,7 @@
 #include "sim/hosts/host_config.hpp"
 #include "sim/hosts/host_pins.hpp"
 #include "sim/masters/chip_config.hpp"
+#include "sim/masters/hint.hpp"
 #include "sim/masters/master_model.hpp"
 
 namespace mb4::sim {
@@ -71,6 +74,12 @@ class LiveMaster {
   virtual HostModel* host(std::string_view name) = 0;
   // What the host has done wrong at the pins so far.
   virtual HostCheck& host_check() { return nothing_wrong_; }
+  // What the host has told the master that does not fit its lines (hint.hpp). Bit n of `missed`:
+  // the host wants the words of slave n + 1 and has not got them. Without any bit a master assumes
+  // that the host wants what it has asked the master for.
+  virtual std::vector<Hint> hints(std::span<const HintLine> /*lines*/, std::uint64_t /*missed*/) {
+    return {};
+  }
   // A fault: the host's next transfer ends after `bits` clocks. For interfaces that can abort.
   virtual void abort_transfer(std::uint64_t /*bits*/) {}
 

@@ -79,6 +79,8 @@ std::string Session::access(const ControlRequest& /*request*/) {
   return "the master cannot access registers of slaves";
 }
 
+std::string Session::send(const std::string& /*line*/) { return "this master takes no SPI frames"; }
+
 void Session::wait_for_begin() {
   const sim::Time frame = simulator_.scenario().host.frame;
   if (frame == 0) return;

@@ -143,6 +143,10 @@ class Session {
   // For masters with MasterSupport::control. Returns why this failed, or empty.
   virtual std::string access(const ControlRequest& request);
 
+  // What the host does by hand, a line as `mb4sim spi` reads it. Returns what is wrong with it, or
+  // empty.
+  virtual std::string send(const std::string& line);
+
   // How often the master had to begin anew before configure() was over.
   virtual std::uint64_t failed_starts() const { return 0; }
 

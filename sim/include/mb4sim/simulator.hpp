@@ -116,6 +116,9 @@ class Simulator final : public HostPins, private LineMaster {
   WordHost* word_bus() { return find_host<WordHost>(scenario_.host.interface.key); }
   // Violations of the master's limits at the host pins so far.
   HostCheck& host_check() { return master_->host_check(); }
+  // What does not fit between the master, as its host has told it, and the lines as they are now.
+  // Bit n of `missed`: the host wants the word of slave n + 1 and has not got it right.
+  std::vector<Hint> hints(std::uint64_t missed = 0);
   // The line of a channel, from 1 on. Null if the scenario does not have this channel.
   Line* line(unsigned channel);
   // A slave by its number from 1 on: Master::first_slave() says where a channel begins. Null if

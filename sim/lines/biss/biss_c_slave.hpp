@@ -55,6 +55,7 @@ class BissCSlave final : public BissSlave<BissCSlaveConfig> {
   void timer(Time now, bool sli) override;
 
   bool set_data(std::uint64_t raw) override;
+  bool sends_data() const override { return control_.data_active(); }
   ControlSlave* control() override { return config_.control.present ? &control_ : nullptr; }
   void set_fault(const SlaveFault& fault, bool on) override;
   const Actuator* actuator() const override { return config_.actuator ? &actuator_ : nullptr; }

@@ -13,6 +13,8 @@ std::unique_ptr<Slave> SsiSlaveConfig::make_slave(std::uint64_t /*seed*/) const 
 DeviceTraits SsiSlaveConfig::traits() const {
   return {.protocol = {.key = "ssi", .title = "SSI", .start_bit = false},
           .timeout = monoflop,
+          .response = response,
+          .repeats = ring,
           .gray = gray,
           .registers = control.present,
           .alone = "an SSI encoder"};

@@ -149,15 +149,7 @@ void FunctionalCoverage::restart() {
     image_[field.address] |= static_cast<std::uint8_t>(field.reset << field.lsb);
   }
   asked_ = false;
-  serial_ = Serial::kIgnore;
-}
-
-std::uint8_t FunctionalCoverage::data_pins() const {
-  unsigned byte = 0;
-  for (unsigned bit = 0; bit < 8; ++bit) {
-    byte |= (levels_[static_cast<std::size_t>(Pin::kDb0) + bit] ? 1U : 0U) << bit;
-  }
-  return static_cast<std::uint8_t>(byte);
+  writes_ = {};
 }
 
 void FunctionalCoverage::pin_changed(Pin pin, bool level) {
@@ -168,57 +160,8 @@ void FunctionalCoverage::pin_changed(Pin pin, bool level) {
     restart();
   } else if (pin == Pin::kEot) {
     if (!level) frame();
-  } else if (this->level(Pin::kCfgspi)) {
-    spi_pin(pin, level);
   } else {
-    bus_pin(pin, level);
-  }
-}
-
-void FunctionalCoverage::spi_pin(Pin pin, bool level) {
-  if (pin == Pin::kNcs) {
-    serial_ = level ? Serial::kIgnore : Serial::kOpcode;
-    bits_ = 0;
-  } else if (pin == Pin::kAle && level) {  // SCLK
-    shift_ = static_cast<std::uint8_t>(shift_ << 1U | (this->level(Pin::kDb0) ? 1U : 0U));
-    if (++bits_ % 8 == 0) spi_byte(shift_);
-  }
-}
-
-void FunctionalCoverage::spi_byte(std::uint8_t byte) {
-  switch (serial_) {
-    case Serial::kOpcode:
-      serial_ = Serial::kData;
-      if (byte == reg::kSpiOpcodeWriteRegisters) {
-        serial_ = Serial::kAddress;
-      } else if (byte == reg::kSpiOpcodeWriteRegisters0) {
-        address_ = reg::kAddrScdata;
-      } else if (byte == reg::kSpiOpcodeWriteInstruction) {
-        address_ = reg::kAddrInstr;
-      } else {
-        serial_ = Serial::kIgnore;
-      }
-      break;
-    case Serial::kAddress:
-      address_ = byte;
-      serial_ = Serial::kData;
-      break;
-    case Serial::kData:
-      written(address_++, byte);
-      break;
-    case Serial::kIgnore:
-      break;
-  }
-}
-
-// Intel: NWR; Motorola: E with RNW low. ALE is high only before them.
-void FunctionalCoverage::bus_pin(Pin pin, bool level) {
-  if (this->level(Pin::kNcs)) return;
-  const bool intel = this->level(Pin::kIntNmot);
-  if (pin == Pin::kAle && !level) {
-    address_ = data_pins();
-  } else if (pin == Pin::kNwrE && level == intel && (intel || !this->level(Pin::kNrdRnw))) {
-    written(address_, data_pins());
+    writes_.edge(pin, level, levels_, *this);
   }
 }
 

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "sim/hosts/host_pins.hpp"
+#include "sim/masters/mb4/hints/host_writes.hpp"
 #include "sim/masters/mb4/pins.hpp"
 
 namespace mb4::sim {
@@ -42,26 +43,18 @@ class FunctionalCoverage final : public PinObserver {
   std::string text() const;
 
  private:
-  enum class Serial { kOpcode, kAddress, kData, kIgnore };
-
-  bool level(Pin pin) const { return levels_[static_cast<std::size_t>(pin)]; }
-  std::uint8_t data_pins() const;
-  void spi_pin(Pin pin, bool level);
-  void spi_byte(std::uint8_t byte);
-  void bus_pin(Pin pin, bool level);
+  friend HostWrites;
   void written(std::uint8_t address, std::uint8_t value);
+  void unknown(std::uint8_t /*opcode*/) {}
   void frame();
   bool line_used(unsigned line, unsigned protocol) const;
   void hit(unsigned kind);
 
   std::vector<std::uint64_t> counts_;  // of the points, in their order
-  std::array<bool, 32> levels_{};
+  HostWrites::Levels levels_{};
+  HostWrites writes_;
   std::array<std::uint8_t, 256> image_{};  // as the host has written it
   bool asked_ = false;                     // an instruction that has not started a frame yet
-  Serial serial_ = Serial::kIgnore;
-  unsigned bits_ = 0;
-  std::uint8_t shift_ = 0;
-  std::uint8_t address_ = 0;
 };
 
 }  // namespace mb4::sim

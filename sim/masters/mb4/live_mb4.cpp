@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "sim/core/trace_error.hpp"
+#include "sim/masters/mb4/hints/setup_hints.hpp"
 #include "sim/masters/mb4/model/preset_chips.hpp"
 #include "sim/masters/mb4/model/watched_chip.hpp"
 
@@ -120,15 +121,30 @@ void LiveMb4::set_pin(Time now, Pin pin, bool level) {
   }
   levels_[index_of(pin)] = level;
   host_check_.edge(now, pin, level);
+  if (pin == Pin::kNres) {
+    setup_.restart();
+  } else {
+    writes_.edge(pin, level, levels_, setup_);
+  }
   if (observer_ != nullptr) observer_->pin_changed(pin, level);
   drive(now, pin, level);
 }
 
 void LiveMb4::own_outputs_changed(Time now, MasterModel::Outputs changed) {
+  if ((changed & ChipModel::kEot) != 0 && !pin(Pin::kEot)) setup_.frame();
   if ((changed & ChipModel::kEot) != 0 && observer_ != nullptr) {
     observer_->pin_changed(Pin::kEot, pin(Pin::kEot));
   }
   if ((changed & ChipModel::kNerLow) != 0) chip_->set_input(now, Pin::kNer, pin(Pin::kNer));
+}
+
+std::vector<Hint> LiveMb4::hints(std::span<const HintLine> lines, std::uint64_t missed) {
+  std::vector<Hint> found = host_hints(setup_.opcodes(), host_check_);
+  if (setup_.setup() == nullptr) return found;
+  for (Hint& hint : setup_hints(*setup_.setup(), config_, true, lines, missed)) {
+    found.push_back(std::move(hint));
+  }
+  return found;
 }
 
 void LiveMb4::set_observer(PinObserver* observer) {

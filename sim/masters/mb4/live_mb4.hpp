@@ -15,6 +15,8 @@
 #include "sim/hosts/spi_host.hpp"
 #include "sim/lines/clocked/clocked_end.hpp"
 #include "sim/masters/live_master.hpp"
+#include "sim/masters/mb4/hints/host_writes.hpp"
+#include "sim/masters/mb4/hints/setup_watch.hpp"
 #include "sim/masters/mb4/mb4_host_check.hpp"
 #include "sim/masters/mb4/model/chip_model.hpp"
 
@@ -45,6 +47,7 @@ class LiveMb4 final : public LiveMaster {
 
   HostModel* host(std::string_view name) override;
   HostCheck& host_check() override { return host_check_; }
+  std::vector<Hint> hints(std::span<const HintLine> lines, std::uint64_t missed) override;
   void abort_transfer(std::uint64_t bits) override { spi_.abort_next(bits); }
 
  private:
@@ -62,6 +65,8 @@ class LiveMb4 final : public LiveMaster {
   SpiHost spi2_;
   ParallelHost bus_;
   Mb4HostCheck host_check_;
+  HostWrites writes_;
+  SetupWatch setup_;
   std::unique_ptr<ChipModel> chip_;
   WatchedChip* watched_ = nullptr;  // chip_ while start_trace() writes a waveform
   PinObserver* observer_ = nullptr;

@@ -22,6 +22,7 @@ struct RunOptions {
   std::optional<double> trace_error_us;  // only around the first bad frame
   std::string csv;                       // empty: none
   std::string bus_log;                   // empty: none
+  std::string spi;  // file of lines that the host sends before the first frame; empty: none
   bool json = false;
   std::optional<std::uint64_t> seed;
 };

@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -17,10 +18,12 @@
 #include "report/exit_status.hpp"
 #include "report/fault_report.hpp"
 #include "report/frame_report.hpp"
+#include "report/hint_lines.hpp"
 #include "report/messages.hpp"
 #include "report/output_file.hpp"
 #include "report/progress.hpp"
 #include "session.hpp"
+#include "sim/core/text_file.hpp"
 #include "sim/scenario/scenario.hpp"
 
 namespace mb4::tool {
@@ -51,12 +54,18 @@ class RunPrinter {
     if (!options_.json) fmt::print("{}", faults_->new_lines());
     for (std::size_t i = 0; i < session.slaves().size(); ++i) {
       frames_.add(frame, session.slaves()[i].number, i);
+      if (frame.kind(i) != SlaveOutcome::Kind::kRight) {
+        missed_ |= std::uint64_t{1} << (session.slaves()[i].number - 1);
+      }
       fmt::print("{}", options_.json ? frames_.json_row() : frames_.table_row());
       if (outputs_.csv != nullptr) outputs_.csv->append(frames_.csv_row());
     }
     if (outputs_.bus_log != nullptr) outputs_.bus_log->append(session.take_bus_log());
     progress_.update(frame.number);
   }
+
+  // Slaves with a bad word: Simulator::hints().
+  std::uint64_t missed() const { return missed_; }
 
   // `error`: why the run ended early. Returns true if everything was good.
   bool end(const Session& session, const std::string& error = "") {
@@ -79,6 +88,7 @@ class RunPrinter {
   RunOutputs& outputs_;
   FrameReport frames_;
   std::optional<FaultReport> faults_;
+  std::uint64_t missed_ = 0;
   Progress progress_;
 };
 
@@ -94,6 +104,17 @@ SessionOptions session_options(const RunOptions& options, const RunOutputs& outp
   return session;
 }
 
+// What the host does by hand before the first frame.
+void send_lines(Session& session, const std::string& path) {
+  std::istringstream lines(sim::read_text_file(path));
+  unsigned number = 1;
+  for (std::string line; std::getline(lines, line); ++number) {
+    if (const std::string why = session.send(line); !why.empty()) {
+      throw UseError(fmt::format("{}:{}: {}", path, number, why));
+    }
+  }
+}
+
 // Repeats the run until a little after its first bad frame, with a waveform around that frame.
 void trace_around(const RunOptions& options, const sim::Scenario& scenario,
                   const Interrupts& interrupts, const RunOutputs& outputs,
@@ -106,6 +127,7 @@ void trace_around(const RunOptions& options, const sim::Scenario& scenario,
   around.simulator.trace_to = bad.end + margin;
   const std::unique_ptr<Session> session = support_of(scenario).open(scenario, around);
   if (!session->configure().empty()) return;
+  if (!options.spi.empty()) send_lines(*session, options.spi);
   // The register accesses that faults need take time too, so they are repeated.
   FaultReport faults(session->simulator().scenario(), session->simulator().faults());
   for (std::uint64_t number = 1; number < bad.number; ++number) {
@@ -133,6 +155,7 @@ std::optional<SessionFrame> read_frames(const RunOptions& options, const Interru
     throw;
   }
   good = printer.end(session);
+  HintLines(options.json).print(hints_of_run(session.simulator(), printer.missed()));
   return first_bad;
 }
 
@@ -163,6 +186,7 @@ int run_command(const RunOptions& options) {
         printer.end(*session, error);
       }
     } else {
+      if (!options.spi.empty()) send_lines(*session, options.spi);
       RunPrinter printer(options, *session, outputs);
       first_bad = read_frames(options, interrupts, *session, printer, good);
     }

@@ -41,6 +41,8 @@ void add_run(CLI::App& app, Action& action) {
            "Waveform of the first bad frame only, and so much before and behind it");
   add_output(run, "--csv", options->csv, "Also write the table as CSV");
   add_output(run, "--bus-log", options->bus_log, "Write what the driver sends and receives");
+  add_output(run, "--spi", options->spi,
+             "Send these lines, as 'spi' reads them, after the driver has configured the chip");
   run.add_flag("--json", options->json, "Print JSON instead of the table");
   add_seed(run, options->seed);
   run.footer(

@@ -3,6 +3,7 @@
 #include "sim/masters/mb4/words/live_words.hpp"
 
 #include "sim/lines/clocked/clocked_end.hpp"
+#include "sim/masters/mb4/hints/setup_hints.hpp"
 
 namespace mb4::sim {
 namespace {
@@ -24,10 +25,29 @@ std::unique_ptr<BusModel> make_model(const MasterSetup& setup) {
 
 LiveWords::LiveWords(const MasterSetup& setup)
     : outside_(setup.outside),
+      config_(setup.chip),
       interface_(setup.host.interface.key),
       lines_(setup.lines),
       model_(make_model(setup)),
       host_(outside_, *model_, kPsPerSecond / setup.host.bus_hz + 1, kLongestAccess, kLastAddress) {
+}
+
+std::optional<std::uint8_t> LiveWords::Host::write(std::uint32_t address, std::uint32_t data,
+                                                   std::uint8_t strobe) {
+  constexpr std::uint32_t kRegisters = 0x100;
+  for (unsigned byte = 0; byte < 4 && address < kRegisters; ++byte) {
+    if ((strobe >> byte & 1U) == 0) continue;
+    setup.written(static_cast<std::uint8_t>(address + byte),
+                  static_cast<std::uint8_t>(data >> (8 * byte)));
+  }
+  return PollingWordHost::write(address, data, strobe);
+}
+
+// A bus of words has no SPI, and its clock is there.
+std::vector<Hint> LiveWords::hints(std::span<const HintLine> lines, std::uint64_t missed) {
+  const WrittenSetup* const setup = host_.setup.setup();
+  return setup == nullptr ? std::vector<Hint>{}
+                          : setup_hints(*setup, config_, false, lines, missed);
 }
 
 void LiveWords::power_on() {
@@ -45,6 +65,7 @@ void LiveWords::set_pin(Time now, Pin pin, bool level) {
   if (!can_set(pin)) return;
   if (pin == Pin::kNres) {
     nres_ = level;
+    host_.setup.restart();
     model_->set_reset(now, !level);
   } else if (pin == Pin::kGetsens) {
     getsens_ = level;
@@ -58,6 +79,7 @@ void LiveWords::set_pin(Time now, Pin pin, bool level) {
 }
 
 void LiveWords::own_outputs_changed(Time now, MasterModel::Outputs changed) {
+  if ((changed & BusModel::kEot) != 0 && !pin(Pin::kEot)) host_.setup.frame();
   if ((changed & BusModel::kNerLow) != 0) model_->set_ner(now, pin(Pin::kNer));
 }
 

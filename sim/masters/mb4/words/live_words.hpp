@@ -15,6 +15,7 @@
 #include "sim/hosts/word_access.hpp"
 #include "sim/lines/clocked/clocked_end.hpp"
 #include "sim/masters/live_master.hpp"
+#include "sim/masters/mb4/hints/setup_watch.hpp"
 #include "sim/masters/mb4/pins.hpp"
 #include "sim/masters/mb4/words/bus_model.hpp"
 
@@ -35,15 +36,26 @@ class LiveWords final : public LiveMaster {
   void own_outputs_changed(Time now, MasterModel::Outputs changed) override;
 
   HostModel* host(std::string_view name) override { return name == interface_ ? &host_ : nullptr; }
+  std::vector<Hint> hints(std::span<const HintLine> lines, std::uint64_t missed) override;
 
  private:
+  // The registers of the chip are the first bytes of the bus.
+  class Host final : public PollingWordHost {
+   public:
+    using PollingWordHost::PollingWordHost;
+    std::optional<std::uint8_t> write(std::uint32_t address, std::uint32_t data,
+                                      std::uint8_t strobe) override;
+    SetupWatch setup;
+  };
+
   bool has_line(unsigned line) const { return (lines_ & MasterModel::of_line(line, kMaPin)) != 0; }
 
   HostPins& outside_;
+  const ChipConfig& config_;
   std::string_view interface_;
   MasterModel::Outputs lines_;
   std::unique_ptr<BusModel> model_;
-  PollingWordHost host_;
+  Host host_;
   bool nres_ = false;
   bool getsens_ = false;
   bool ner_pulled_ = false;  // by something outside

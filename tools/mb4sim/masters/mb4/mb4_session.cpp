@@ -10,6 +10,7 @@
 #include "masters/mb4/chip_setup.hpp"
 #include "masters/mb4/mb4_scan.hpp"
 #include "masters/mb4/sim_bus.hpp"
+#include "masters/mb4/spi_lines.hpp"
 #include "mb4/device.hpp"
 #include "mb4/position.hpp"
 #include "mb4/scan.hpp"
@@ -62,6 +63,7 @@ class Mb4Session final : public Session {
   SessionFrame read(std::uint64_t number) override;
   RegisterMap registers() override;
   std::string access(const ControlRequest& request) override;
+  std::string send(const std::string& line) override;
 
  private:
   std::string check_id(unsigned slave) override;
@@ -177,6 +179,12 @@ std::string Mb4Session::access(const ControlRequest& request) {
           ? device_.control().read_registers(slave, request.address, {bytes.data(), bytes.size()})
           : device_.control().write_registers(slave, request.address,
                                               {bytes.data(), bytes.size()}));
+}
+
+std::string Mb4Session::send(const std::string& line) {
+  const auto words = words_of(line);
+  std::vector<std::uint8_t> received;
+  return words.empty() ? "" : execute_words(simulator_, bus_, words, received);
 }
 
 // SCDATA1 to 8 and RDATA, eight bytes a line.

@@ -1,0 +1,111 @@
+# SPDX-FileCopyrightText: 2026 The openmb4 authors
+# SPDX-License-Identifier: Apache-2.0
+"""Hints of `mb4sim run` and `mb4sim spi`: one for each set-up of tests/wrong_setups, none for right
+ones. MB4_HINT_SEED is the first seed of the random right ones.
+
+  cli_hint_test.py MB4SIM EXAMPLES
+"""
+
+import json
+import os
+import re
+import sys
+from pathlib import Path
+
+from cli import CliTest, run
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "wrong_setups"))
+import hint_cases  # noqa: E402
+
+RIGHT = 200
+SEED = int(os.environ.get("MB4_HINT_SEED", "1"))
+LINE = re.compile(r"mb4sim: hint \((?P<kind>[a-z]+)\): (?P<text>.*)")
+
+
+def of_json(stderr):
+    """The hints of `run --json`; other lines are notes."""
+    objects = [json.loads(line) for line in stderr.splitlines()]
+    return [{"kind": one["hint"], "place": one["place"], "text": one["text"]}
+            for one in objects if "hint" in one]
+
+
+class Hints(CliTest):
+    def run_setup(self, setup, *options, frames=hint_cases.FRAMES):
+        scenario = self.path("scenario.toml", setup.scenario)
+        lines = self.path("lines.txt", "".join(f"{line}\n" for line in setup.lines))
+        return run("run", scenario, "--frames", str(frames), "--spi", lines, *options)
+
+    def test_each_wrong_setup_gives_its_hint_in_run(self):
+        for setup in hint_cases.listed():
+            with self.subTest(setup.name):
+                result = self.run_setup(setup, "--json")
+                self.assertEqual(hint_cases.wrong_with(setup, of_json(result.stderr)), "")
+                self.assertNotIn("hint", json.loads(result.stdout))
+                if setup.hint is None:
+                    self.assertEqual((result.returncode, result.stderr), (0, ""))
+                elif setup.hint["place"] != "host":  # the words of the others are as they should be
+                    self.assertEqual(result.returncode, 1)
+
+    def test_run_says_the_same_in_words(self):
+        for setup in hint_cases.listed():
+            with self.subTest(setup.name):
+                plain, told = self.run_setup(setup), self.run_setup(setup, "--json")
+                self.assertEqual([f"mb4sim: hint ({one['kind']}): {one['text']}" for one in of_json(told.stderr)],
+                                 plain.stderr.splitlines())
+                self.assertNotIn("hint", plain.stdout)
+
+    def test_each_wrong_setup_gives_its_hint_in_spi(self):
+        """What the driver sends in `run`, with time for the first frame behind it."""
+        for setup in hint_cases.listed():
+            with self.subTest(setup.name):
+                log = self.path("log.txt", "")
+                self.run_setup(setup, "--bus-log", log, frames=1)
+                sent = [line.split(">")[0].strip() for line in Path(log).read_text().splitlines()]
+                by_hand = [line for line in setup.lines if not re.match("[0-9A-F]", line)]
+                scenario = self.path("scenario.toml", setup.scenario)
+                text = "".join(f"{line}\n" for line in [*sent, "+1000000", *by_hand])
+                result = run("spi", scenario, text=text)
+                self.assertEqual(result.returncode, 0, result.stderr)
+                hints = [{"place": setup.hint and setup.hint["place"], **LINE.fullmatch(line).groupdict()}
+                         for line in result.stderr.splitlines() if "host timing" not in line]
+                self.assertEqual(hint_cases.wrong_with(setup, hints), "")
+
+    def test_no_right_setup_gives_a_hint(self):
+        print(f"right set-ups from seed {SEED} on (MB4_HINT_SEED)", file=sys.stderr)
+        good = bad = 0
+        for setup in hint_cases.rights(RIGHT, SEED):
+            with self.subTest(setup.name):
+                result = self.run_setup(setup)
+                self.assertIn(result.returncode, (0, 1), result.stderr + setup.scenario)
+                self.assertEqual(result.stderr, "", setup.scenario)
+                if "with faults" not in setup.name:
+                    self.assertEqual(result.returncode, 0, result.stdout + setup.scenario)
+                good += result.returncode == 0
+                bad += result.returncode
+        print(f"{good} without a bad word, {bad} with bad words", file=sys.stderr)
+        self.assertGreater(bad, RIGHT // 8)  # faults have done something
+
+    def test_spi_tells_a_hint_once_and_in_time(self):
+        setup = next(hint_cases.listed())
+        scenario = self.path("scenario.toml", setup.scenario)
+        configure = ("02 C0 59 06\n02 E5 C0 A0 00 7C\n02 EC 00 0D\n")
+        self.assertEqual(run("spi", scenario, text=configure).stderr, "")  # nothing was asked for
+        once = run("spi", scenario, text=configure + "07 04\n+100000\n07 04\n+100000\n").stderr
+        self.assertEqual(len(once.splitlines()), 1, once)
+        self.assertIn("hint (length)", once)
+
+    def test_a_register_access_before_the_lengths_are_known_is_no_mistake(self):
+        setup = next(hint_cases.listed())
+        scenario = self.path("scenario.toml", setup.scenario)
+        access = "02 C0 40\n02 E2 78 00 01 C0 A0 00 7C\n02 EC 00 0D\n07 08\n+3000000\n"
+        self.assertEqual(run("spi", scenario, text=access).stderr, "")
+
+    def test_spi_lines_of_run_have_their_line_number(self):
+        scenario = self.path("scenario.toml", next(hint_cases.listed()).scenario)
+        lines = self.path("lines.txt", "# a comment\n\n02 C0 ZZ\n")
+        self.assert_one_line(run("run", scenario, "--spi", lines), 2, r"lines\.txt:3: expected bytes")
+
+
+if __name__ == "__main__":
+    import unittest
+    unittest.main(argv=sys.argv[:1])
