@@ -252,6 +252,10 @@ MB4SIM_API int mb4sim_trace_stop(mb4sim *sim);
  *                    touched, ner_low: after how many of them pin NER was low, at EOT = 1 or when
  *                    the next frame started
  *   host_violations  count, and first: a list of up to 100 with item ("I205") and text
+ *   hints            list of what does not fit between the master, as its host has told it, and the
+ *                    scenario: kind ("length"; sim/README.md lists them), place ("slave 1",
+ *                    "channel 1", "chip", "host") and text. They compare set-ups only, at the latest
+ *                    request for words: a fault gives none
  *
  * Returns the length that the whole text needs, without the 0, or a negative error. `json` may be
  * NULL with size 0. Frames are counted from power-on if the scenario has [[fault]], else from the

@@ -6,6 +6,7 @@ simulator (the Python package, which is on the C interface)."""
 import functools
 import http.server
 import os
+import sys
 import threading
 import time
 from pathlib import Path
@@ -17,7 +18,12 @@ from selenium.webdriver.chrome.service import Service
 from selenium.webdriver.common.keys import Keys
 from selenium.webdriver.support.ui import Select
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "wrong_setups"))
+import hint_cases  # noqa: E402
+
 PAGE = Path(os.environ["MB4_WEB_PAGE"])
+RIGHT_SETUPS = 200
+HINT_SEED = int(os.environ.get("MB4_HINT_SEED", "1"))
 ENOUGH_S = 60  # on a machine that is busy with other tests
 LINKS = ["", "#encoder=resolute-36&movement=ramp&cable=100&ma=5000000",
          "#encoder=ic-mu&bits=20&movement=still&cable=0&ma=1000000",
@@ -187,6 +193,51 @@ def test_frames_and_spi_answers_equal_the_native_simulator(page, link):
             chip.spi(read_status)
         assert chip.time_ns == page.run("return chip.timeNs")
         assert chip.clk_cycles == page.run("return chip.clocks")
+
+
+def hints_of(page, setup):
+    """What the page shows when the driver has configured the chip, the host has sent the lines of a
+    set-up, and frames were read."""
+    return page.run("""
+        const [text, lines, frames] = arguments;
+        chip.open(text);
+        chip.configure();
+        for (const line of lines) {
+          const words = line.split(" ");
+          if (words[0] === "pin") chip.setPin(words[1], Number(words[2]));
+          else if (words[0][0] === "+") chip.advance(Number(words[0].slice(1)));
+          else chip.spi(words.map((word) => parseInt(word, 16)));
+        }
+        chip.read(frames);
+        showHints();
+        return $("hints").hidden ? [] : [...$("hints").children].map(
+          (item) => ({...item.dataset, text: item.textContent}));""",
+                    setup.scenario, setup.lines, hint_cases.FRAMES)
+
+
+def test_each_wrong_setup_gives_its_hint(page):
+    wrong = [hint_cases.wrong_with(setup, hints_of(page, setup)) for setup in hint_cases.listed()]
+    assert len(wrong) >= 80 and [text for text in wrong if text] == []
+
+
+def test_no_right_setup_gives_a_hint(page, capsys):
+    with capsys.disabled():
+        print(f"\nright set-ups from seed {HINT_SEED} on (MB4_HINT_SEED)")
+    for setup in hint_cases.rights(RIGHT_SETUPS, HINT_SEED):
+        assert hints_of(page, setup) == [], setup.scenario
+
+
+def test_a_hint_comes_with_the_bad_frame_and_goes_with_the_mistake(page):
+    assert not page["hints"].is_displayed()
+    page.enter("spi-bytes", "02 C0 59")
+    assert not page["hints"].is_displayed()  # no word has been asked for
+    page.click("step")
+    assert page["hints"].is_displayed() and page.text("state") != "ok"
+    assert page.text("hints") == "slave 1 sends 28 bits, the chip takes 26 (SCDLEN1 = 0x19)"
+    page.run("$('fault-kind').value = 'unplug'; $('fault').click()")
+    page.enter("spi-bytes", "02 C0 5B")
+    page.click("step")
+    assert page.text("state") != "ok" and not page["hints"].is_displayed()  # unplugged, no mistake
 
 
 def test_clock_rate_as_a_part_of_the_native_one(page, capsys):

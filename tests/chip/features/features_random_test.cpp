@@ -38,6 +38,10 @@ TEST_P(FeaturesRandom, Configurations_AgreeWithTheReference) {
              << "\nrepeat with: " << run.session().save() << "\nor with: MB4_SEED=" << seed
              << " MB4_RANDOM_CONFIGS=1 features_test --gtest_filter=*FeaturesRandom.*";
     }
+    for (const mb4::sim::Hint& hint : run.session().simulator().hints()) {
+      ADD_FAILURE() << core.name << ", seed " << seed
+                    << ": a hint without a mistake: " << hint.text;
+    }
     std::filesystem::remove_all(folder);
   }
   EXPECT_GT(counts.frames, 5 * count);

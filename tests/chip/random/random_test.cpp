@@ -50,6 +50,10 @@ TEST(ChipRandom, Configurations_AgreeWithTheReference) {
              << "\nrepeat with: " << run.session().save() << "\nor with: MB4_SEED=" << seed
              << " MB4_RANDOM_CONFIGS=1 chip_test --gtest_filter=ChipRandom.*";
     }
+    // The registers fit the lines, whatever faults there were.
+    for (const mb4::sim::Hint& hint : run.session().simulator().hints()) {
+      ADD_FAILURE() << "seed " << seed << ": a hint without a mistake: " << hint.text;
+    }
     std::filesystem::remove_all(folder);
   }
   std::printf(

@@ -591,6 +591,19 @@ TEST_F(CApiFirmware, NumberThatNoDoubleHolds_IsAMistake) {
             std::string::npos);
 }
 
+TEST_F(CApiFirmware, Report_HoldsHintsOnceWordsAreAskedFor) {
+  frame();
+  EXPECT_NE(report().find("\"hints\": []}"), std::string::npos) << report();
+  send({reg::kSpiOpcodeWriteRegisters, reg::slave_cfg_address(1), reg::kEnscdYes | 25});
+  EXPECT_NE(report().find("\"hints\": []}"), std::string::npos) << report();
+  frame();
+  EXPECT_NE(report().find("\"hints\": [\n  {\"kind\": \"length\", \"place\": \"slave 1\", "
+                          "\"text\": \"slave 1 sends 28 bits, the chip takes 26 (SCDLEN1 = "
+                          "0x19)\"}]}"),
+            std::string::npos)
+      << report();
+}
+
 TEST_F(CApiFirmware, Report_HoldsTheHostsViolations) {
   EXPECT_NE(report().find("\"host_violations\": {\"count\": 0, \"first\": []}"), std::string::npos)
       << report();

@@ -85,6 +85,13 @@ class Hints(CliTest):
         print(f"{good} without a bad word, {bad} with bad words", file=sys.stderr)
         self.assertGreater(bad, RIGHT // 8)  # faults have done something
 
+    def test_a_smaller_chip_names_what_it_lacks(self):
+        text = hint_cases.scenario_text("ssi-25")
+        for features, expected in (("single", "channel 1 needs SSI"), ("full", "")):
+            setup = hint_cases.Setup(features, f'[chip]\nfeatures = "{features}"\n' + text, [])
+            stderr = self.run_setup(setup).stderr
+            self.assertRegex(stderr, f"^mb4sim: hint .features.: {expected}.*\n$" if expected else "^$")
+
     def test_spi_tells_a_hint_once_and_in_time(self):
         setup = next(hint_cases.listed())
         scenario = self.path("scenario.toml", setup.scenario)

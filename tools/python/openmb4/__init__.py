@@ -16,11 +16,11 @@ from .driver import Driver
 from .reading import Identity, Reading
 from .record import Edges
 from .registers import Field, Register, Registers
-from .simulator import Frame, Simulator
+from .simulator import Frame, Hint, Simulator
 from .table import to_pandas
 
 __version__ = version()
 __all__ = ["ClockSource", "Code", "Config", "Driver", "Edges", "Error", "Field", "Flags", "Frame",
-           "FrameStart", "Identity", "LineInterface", "Protocol", "Reading", "Register", "Registers",
-           "Simulator", "SimulatorCode", "SlaveConfig", "SpiCheck", "frame_period_clk_at_least",
+           "FrameStart", "Hint", "Identity", "LineInterface", "Protocol", "Reading", "Register",
+           "Registers", "Simulator", "SimulatorCode", "SlaveConfig", "SpiCheck", "frame_period_clk_at_least",
            "ma_hz_at_most", "sweep", "to_pandas", "version"]

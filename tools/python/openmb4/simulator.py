@@ -30,6 +30,18 @@ _EDGE = np.dtype([("time", np.int64), ("name", np.uint32), ("level", np.uint32)]
 _LAST_FRAMES = 1024  # mb4sim_slave_sent() keeps
 
 
+class Hint(NamedTuple):
+    """What does not fit between the chip, as its host has told it, and the scenario: mb4sim_report()
+    of mb4sim.h. str() is its sentence."""
+
+    kind: str
+    place: str
+    text: str
+
+    def __str__(self) -> str:
+        return self.text
+
+
 class Frame(NamedTuple):
     """A frame on a line: mb4sim_frame of mb4sim.h."""
 
@@ -343,10 +355,15 @@ class Simulator(Opened):
                 raise simulator_error(result, what)
 
     def report(self) -> Dict[str, Any]:
-        """Faults, what they touched, and violations of the host's timing: what mb4sim_report() of
-        mb4sim.h writes."""
+        """Faults, what they touched, violations of the host's timing, and hints: what mb4sim_report()
+        of mb4sim.h writes."""
         with self._lock:
             size = self._do("report", lib.mb4sim_report, ffi.NULL, 0) + 1
             text = ffi.new("char[]", size)
             self._do("report", lib.mb4sim_report, text, size)
             return dict(json.loads(ffi.string(text)))
+
+    def hints(self) -> List[Hint]:
+        """Why words fail that no fault has met: lengths, CRC, protocol and the like that differ between
+        the chip's registers and the encoders. Empty if they fit."""
+        return [Hint(**hint) for hint in self.report()["hints"]]

@@ -187,6 +187,10 @@ EMSCRIPTEN_KEEPALIVE const char* web_advance_ns(double ns) {
 EMSCRIPTEN_KEEPALIVE double web_time_ns() { return static_cast<double>(mb4sim_time_ns(sim)); }
 EMSCRIPTEN_KEEPALIVE double web_clk_cycles() { return static_cast<double>(mb4sim_clk_cycles(sim)); }
 EMSCRIPTEN_KEEPALIVE int web_pin(const char* name) { return mb4sim_pin_read(sim, name); }
+EMSCRIPTEN_KEEPALIVE const char* web_set_pin(const char* name, int level) {
+  const int error = mb4sim_pin_write(sim, name, level);
+  return tell(error == 0 ? "" : simulator_words(error));
+}
 
 // Adds faults or cable events; times count from now. "" or the line that names the mistake.
 EMSCRIPTEN_KEEPALIVE const char* web_inject(const char* toml) {

@@ -44,6 +44,7 @@ class Chip {
   inject(toml) { this.must("web_inject", ["string"], [toml]); }
   report() { return JSON.parse(this.text("web_report")); }
   record(on) { this.module._web_record(on ? 1 : 0); }
+  setPin(name, level) { this.must("web_set_pin", ["string", "number"], [name, level]); }
   pin(name) { return this.module.ccall("web_pin", "number", ["string"], [name]); }
   get timeNs() { return this.number("web_time_ns"); }
   get clocks() { return this.number("web_clk_cycles"); }

@@ -210,7 +210,19 @@ function show(frame) {
   }
 }
 
+// Why words fail that no fault has met: what the chip is told against what the encoder is.
+function showHints() {
+  const hints = chip.report().hints;
+  $("hints").hidden = hints.length === 0;
+  $("hints").replaceChildren(...hints.map(({kind, place, text}) => {
+    const item = html("li", {textContent: text});
+    Object.assign(item.dataset, {kind, place});
+    return item;
+  }));
+}
+
 function afterStep() {
+  showHints();
   plot.setData([points.time, points.position, points.bad]);
   $("time").textContent = `${(chip.timeNs / 1e6).toFixed(4)} ms`;
   view.refresh();

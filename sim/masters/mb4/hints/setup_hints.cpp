@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "mb4_page_regs.hpp"
 #include "sim/core/number_text.hpp"
 #include "sim/lines/device.hpp"
 #include "sim/lines/presets.hpp"
@@ -25,6 +26,7 @@ constexpr unsigned kSecondLine = 5;  // first data channel of line 2
 // In the order of CFGCH.
 constexpr std::array<std::string_view, 3> kProtocols{"biss-b", "biss-c", "ssi"};
 constexpr std::array<std::string_view, 3> kTitles{"BiSS B", "BiSS C", "SSI"};
+constexpr unsigned kBissB = 0;
 constexpr unsigned kSsi = 2;
 constexpr unsigned kUnused = 3;
 
@@ -354,6 +356,16 @@ Hint unused_line(const WrittenSetup& setup, const HintLine& line) {
                                                              : "SLAVELOC5 = 0")};
 }
 
+// What the line needs and a smaller chip lacks; empty: nothing.
+std::string lacks(const ChipConfig& chip, unsigned line, unsigned protocol) {
+  if (chip.features == 0) return "";  // the full chip
+  const auto has = [&](std::uint32_t mask) { return (chip.features & mask) != 0; };
+  if (line == 2 && !has(page::TWO_LINES::kMask)) return "a second line";
+  if (protocol == kSsi && !has(page::SSI::kMask)) return "SSI";
+  if (protocol == kBissB && !has(page::BISS_B::kMask)) return "BiSS B";
+  return "";
+}
+
 std::uint8_t reversed(std::uint8_t byte) {
   unsigned out = 0;
   for (unsigned bit = 0; bit < 8; ++bit) out |= (byte >> bit & 1U) << (7 - bit);
@@ -394,6 +406,13 @@ std::vector<Hint> setup_hints(const WrittenSetup& setup, const ChipConfig& chip,
       hints.push_back({"protocol", channel,
                        channel + " has " + std::string(line.protocol_title) + ", the chip speaks " +
                            std::string(kTitles[code]) + ": " + cfgch(setup, line.channel)});
+      continue;
+    }
+    if (const std::string what = lacks(chip, line.channel, code); !what.empty()) {
+      const std::string channel = "channel " + text_of(line.channel);
+      hints.push_back(
+          {"features", channel,
+           channel + " needs " + what + ", which this chip does not have: [chip] features"});
       continue;
     }
     const LineHints one(setup, line, code == kSsi, period, missed);
