@@ -29,4 +29,5 @@ dsl_map.sv
 dsl_regs.sv
 dsl_core.sv
 dsl_bridge.sv
+dsl_bus.sv
 dsl_axil.sv

@@ -7,6 +7,9 @@
 #if MB4SIM_WITH_CLB
 #include "sim/masters/clb/clb_master.hpp"
 #endif
+#if MB4SIM_WITH_DSL
+#include "sim/masters/dsl/dsl_rtl_master.hpp"
+#endif
 #if MB4SIM_WITH_DSL_MODEL
 #include "sim/masters/dsl_model/dsl_master.hpp"
 #endif
@@ -30,6 +33,9 @@ constexpr const Master* kMasters[] = {
 #if MB4SIM_WITH_PRU
     &kPruMaster,
 #endif
+#if MB4SIM_WITH_DSL
+    &kDslMaster,
+#endif
 #if MB4SIM_WITH_DSL_MODEL
     &kDslModelMaster,
 #endif
@@ -51,6 +57,7 @@ std::span<const LeftOut> masters_left_out() {
     if (!MB4SIM_WITH_AXI) missing.push_back({"axi", "-DMB4_AXI=ON"});
     if (!MB4SIM_WITH_CLB) missing.push_back({"clb", "-DMB4_CLB=ON"});
     if (!MB4SIM_WITH_PRU) missing.push_back({"pru", "-DMB4_PRU=ON"});
+    if (!MB4SIM_WITH_DSL) missing.push_back({"dsl", "-DMB4_DSL=ON"});
     if (!MB4SIM_WITH_DSL_MODEL) missing.push_back({"dsl-model", "-DMB4_DSL=ON"});
     return missing;
   }();

@@ -261,10 +261,19 @@ void DslSlave::finish(Time now) {
 
 // ---- Motion -------------------------------------------------------------------------------------
 
+std::optional<std::uint64_t> DslSlave::sampled_near(Time at, Time within) const {
+  for (const Sample& one : last_) {
+    const Time away = one.at > at ? one.at - at : at - one.at;
+    if (one.at != kNever && away <= within) return one.position;
+  }
+  return std::nullopt;
+}
+
 void DslSlave::sample(Time at) {
   before_ = position_;
   const std::uint64_t mask = ~std::uint64_t{0} >> (64 - config_.data_bits);
   position_ = (motion_ != nullptr ? motion_(motion_context_) : config_.word(at, samples_)) & mask;
+  last_[samples_ % last_.size()] = {at, position_};
   ++samples_;
   const std::int64_t speed = low_signed(position_ - before_, config_.data_bits);
   acceleration_ = speed - speed_;

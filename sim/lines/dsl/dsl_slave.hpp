@@ -94,6 +94,8 @@ class DslSlave final : public DuplexSlave {
     motion_ = motion;
     motion_context_ = context;
   }
+  // The position that it took `within` of a time, one of the last few; nothing if it took none.
+  std::optional<std::uint64_t> sampled_near(Time at, Time within) const;
   // A second difference did not fit.
   bool overflowed() const { return overflowed_; }
   // Bits of the last answer that were inverted by errors of the line or by flip(); the first bit of
@@ -107,6 +109,10 @@ class DslSlave final : public DuplexSlave {
   struct Edge {
     Time at;
     bool level;
+  };
+  struct Sample {
+    Time at = kNever;
+    std::uint64_t position = 0;
   };
   struct Channel {
     std::array<std::uint8_t, kVertical> bytes{};
@@ -173,6 +179,7 @@ class DslSlave final : public DuplexSlave {
 
   // Motion.
   std::uint64_t samples_ = 0;
+  std::array<Sample, 16> last_{};  // by the number of the sample
   std::uint64_t position_ = 0;
   std::uint64_t before_ = 0;  // position of the frame before
   std::int64_t speed_ = 0;

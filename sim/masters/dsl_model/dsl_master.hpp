@@ -10,7 +10,7 @@
 #include <optional>
 
 #include "sim/hosts/host_pins.hpp"
-#include "sim/masters/chip_config.hpp"
+#include "sim/masters/dsl_model/dsl_quirks.hpp"
 #include "sim/masters/dsl_model/link_model.hpp"
 #include "sim/masters/master.hpp"
 
@@ -19,11 +19,6 @@ namespace mb4::sim {
 extern const Master kDslModelMaster;
 
 namespace dsl_model {
-
-// The rules that [chip.quirks] has asked for.
-LinkRules rules_of(const ChipConfig& chip);
-// Another rule of the sample than [chip.quirks] has asked for.
-void set_sample(ChipConfig& chip, SampleRule rule);
 
 // Keeps the frames of the master until the program takes them, oldest first.
 class LinkHost final : public HostModel, public LinkListener {

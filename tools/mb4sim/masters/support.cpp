@@ -6,8 +6,8 @@
 #if MB4SIM_WITH_CLB
 #include "masters/clb/clb_session.hpp"
 #endif
-#if MB4SIM_WITH_DSL_MODEL
-#include "masters/dsl_model/dsl_session.hpp"
+#if MB4SIM_WITH_DSL
+#include "masters/dsl/dsl_session.hpp"
 #endif
 #include "masters/mb4/mb4_session.hpp"
 #if MB4SIM_WITH_PRU
@@ -30,7 +30,8 @@ constexpr const MasterSupport* kAll[] = {
 #if MB4SIM_WITH_PRU
     &kPruSupport,
 #endif
-#if MB4SIM_WITH_DSL_MODEL
+#if MB4SIM_WITH_DSL
+    &kDslSupport,
     &kDslModelSupport,
 #endif
 };

@@ -24,6 +24,7 @@ class BusModel : public MasterModel, public WordManager {
   static constexpr Outputs kNerLow = own(1);
   static constexpr Outputs kIrq = own(2);
   static constexpr Outputs kClkeni = own(3);
+  static constexpr Outputs kAnswered = own(4);  // changes at the end of each access
 
   // Levels of pins.
   virtual void set_reset(Time now, bool active) = 0;

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A session with the model of a DSL master. It has no driver: the master runs by itself, and each
-// H-frame from the first certain position on is one of the session. A restart of the link is a
-// frame without a word; the frames up to the next certain position are left out.
-#include "masters/dsl_model/dsl_session.hpp"
+// A session with a DSL master, the model or the RTL. It has no driver: the master runs by itself,
+// and each H-frame from the first certain position on is one of the session. A restart of the link
+// is a frame without a word; the frames up to the next certain position are left out.
+#include "masters/dsl/dsl_session.hpp"
 
 #include <fmt/core.h>
 
@@ -13,21 +13,19 @@
 #include <map>
 #include <optional>
 
+#include "masters/dsl/dsl_readings.hpp"
 #include "report/exit_status.hpp"
 #include "sim/lines/dsl/dsl_slave.hpp"
 #include "sim/lines/duplex/duplex_line.hpp"
-#include "sim/masters/dsl_model/dsl_master.hpp"
+#include "sim/masters/dsl_model/dsl_quirks.hpp"
 
 namespace mb4::tool {
 namespace {
 
-using sim::dsl_model::Link;
-using sim::dsl_model::LinkFrame;
-using sim::dsl_model::LinkHost;
-using sim::dsl_model::Restart;
 using sim::dsl_model::SampleRule;
 
-constexpr std::uint32_t kSigned = 1U << 10U;  // in the identity of the encoder
+constexpr unsigned kTicksOfFrame = 864;
+constexpr unsigned kVertical = sim::dsl_model::SafeChannels::kFrames;
 
 // A number of this width, as the identity of the encoder says.
 std::string number_text(std::uint64_t value, unsigned bits, bool is_signed) {
@@ -59,17 +57,20 @@ class DslSession final : public Session {
  public:
   DslSession(const sim::Scenario& scenario, const SessionOptions& options)
       : Session(scenario, options),
-        host_(simulator_.host<LinkHost>("none")),
+        master_(scenario.master->type == "dsl" ? readings_of_registers(simulator_, log())
+                                               : readings_of_model(simulator_)),
         line_(*sim::duplex(simulator_.line(slaves_.front().channel))),
-        encoder_(dynamic_cast<const sim::DslSlave&>(*simulator_.slave(slaves_.front().number))) {}
+        encoder_(dynamic_cast<const sim::DslSlave&>(*simulator_.slave(slaves_.front().number))),
+        frame_time_(kTicksOfFrame * sim::kPsPerSecond / scenario.chip.f_clk_hz) {}
 
   std::string configure() override;
   SessionFrame read(std::uint64_t number) override;
   std::span<const WordColumn> columns() const override;
   std::uint64_t failed_starts() const override { return failed_starts_; }
   // A vertical frame is judged at its end.
-  unsigned late_frames() const override { return 8; }
+  unsigned late_frames() const override { return kVertical; }
   std::string told_between(std::uint64_t frame) const override;
+  RegisterMap registers() override { return master_->registers(); }
   RunSummary summary() const override;
 
  private:
@@ -77,46 +78,34 @@ class DslSession final : public Session {
   bool find_link();
   void keep_mistakes();
   std::string no_link() const;
-  std::string no_link_and_why() const;
   std::string judge() const;
   std::string judge_safe() const;
-  void keep_truth();
+  std::optional<std::uint64_t> truth_before(unsigned frames) const;
   std::vector<std::string> told() const;
-  sim::Time sampled() const;
 
-  LinkHost& host_;
+  std::unique_ptr<DslReadings> master_;
   const sim::DuplexLine& line_;
   const sim::DslSlave& encoder_;
-  LinkFrame frame_;
+  sim::Time frame_time_;
+  DslFrame frame_;
   bool first_ = false;  // frame_ has not been read yet
   bool lost_ = false;   // the link, and its restart has been told
   std::uint64_t failed_starts_ = 0;
   // What was wrong with running frames that are no rows, by their numbers.
   std::map<std::uint64_t, std::string> between_;
-  std::uint64_t begun_ = 0;  // frames that the encoder has seen
-  // The position of the encoder's last sample, of the one before, and that of the sample before the
-  // vertical frame.
-  std::optional<std::uint64_t> truth_;
-  std::optional<std::uint64_t> safe_truth_;
 };
 
 // Runs to the next answer. False if none comes while the host waits.
 bool DslSession::next() {
-  const sim::Time limit = simulator_.now() + simulator_.scenario().host.link_wait;
-  simulator_.run_while_waiting([this] { return host_.any(); }, limit);
-  const auto frame = host_.take();
+  const auto frame = master_->next(simulator_.now() + simulator_.scenario().host.link_wait);
   if (!frame) return false;
   frame_ = *frame;
-  keep_truth();
   return true;
 }
 
-// The encoder cannot have taken its next position yet. It has none of a frame that it has not seen.
-void DslSession::keep_truth() {
-  if (frame_.number != 0 && frame_.place == 0) safe_truth_ = truth_;
-  const std::uint64_t begun = encoder_.begun();
-  truth_ = begun == begun_ + 1 ? encoder_.sent_word() : std::nullopt;
-  begun_ = begun;
+// The position that the encoder took some frames before this one; nothing if it saw no frame then.
+std::optional<std::uint64_t> DslSession::truth_before(unsigned frames) const {
+  return encoder_.sampled_near(frame_.sampled - frames * frame_time_, frame_time_ / 2);
 }
 
 // A running frame that is no row. A safe position belongs to the eight frames that have brought it.
@@ -125,7 +114,7 @@ void DslSession::keep_mistakes() {
   if (!frame_.acceleration_good) between_[frame_.number] = "second difference missing";
   const std::string safe = frame_.safe_new ? judge_safe() : "";
   if (safe.empty()) return;
-  for (unsigned i = 0; i <= frame_.place; ++i) {
+  for (unsigned i = 0; i < kVertical; ++i) {
     if (i < frame_.number) between_.try_emplace(frame_.number - i, safe);
   }
 }
@@ -151,17 +140,11 @@ std::string DslSession::no_link() const {
                      sim::to_us(simulator_.scenario().host.link_wait) / 1000);
 }
 
-std::string DslSession::no_link_and_why() const {
-  const Link& link = host_.model().link();
-  return fmt::format("{}: state {}, {} restarts, the last one: {}", no_link(),
-                     sim::dsl_model::name_of(link.state()), link.restarts(),
-                     sim::dsl_model::name_of(link.last_restart()));
-}
-
 std::string DslSession::configure() {
-  if (!find_link()) return no_link_and_why();
+  if (std::string failed = master_->begin(); !failed.empty()) return failed;
+  if (!find_link()) return fmt::format("{}: {}", no_link(), master_->state());
   first_ = true;
-  failed_starts_ = host_.model().link().restarts();
+  failed_starts_ = master_->restarts();
   return "";
 }
 
@@ -176,10 +159,9 @@ std::span<const WordColumn> DslSession::columns() const {
 
 // In the order of the columns. Position and speed only if they are certain.
 std::vector<std::string> DslSession::told() const {
-  const Link& link = host_.model().link();
-  const bool is_signed = (link.identity() & kSigned) != 0;
-  const auto position = [&](std::uint64_t value) {
-    return number_text(value, link.position_bits(), is_signed);
+  const std::uint32_t identity = master_->identity();
+  const auto position = [identity](std::uint64_t value) {
+    return number_text(value, dsl_position_bits(identity), dsl_is_signed(identity));
   };
   const bool safe = frame_.safe_new && frame_.safe1.valid;
   return {frame_.lost ? "" : position(frame_.position),
@@ -204,15 +186,14 @@ std::string DslSession::judge_safe() const {
   if (bad.empty()) {
     bad = told_bad(frame_.safe2, "second safe position: CRC error", "no second safe position");
   }
-  if (!bad.empty() || !safe_truth_) return bad;
-  const SafePositions right = safe_positions(encoder_.config(), *safe_truth_);
+  // That of the sample before the vertical frame.
+  const auto truth = truth_before(kVertical);
+  if (!bad.empty() || !truth) return bad;
+  const SafePositions right = safe_positions(encoder_.config(), *truth);
   if (frame_.safe1.position != right.first) return "wrong safe position";
   if (frame_.safe2.position != right.second) return "wrong second safe position";
   return "";
 }
-
-// The edge in SAMPLE of the last answer.
-sim::Time DslSession::sampled() const { return host_.model().time_of(frame_.sampled); }
 
 RunSummary DslSession::summary() const {
   RunSummary summary = Session::summary();
@@ -242,8 +223,8 @@ SessionFrame DslSession::read(std::uint64_t number) {
     error = no_link();
     any = link_there = false;
   }
-  if (error.empty() && frame_.restart != Restart::kNone) {
-    error = fmt::format("restart: {}", sim::dsl_model::name_of(frame_.restart));
+  if (error.empty() && !frame_.restart.empty()) {
+    error = "restart: " + frame_.restart;
     lost_ = true;
     any = false;
   }
@@ -253,13 +234,13 @@ SessionFrame DslSession::read(std::uint64_t number) {
   if (error.empty()) {
     Word word;
     word.bits = frame_.position;
-    word.data_bits = host_.model().link().position_bits();
+    word.data_bits = dsl_position_bits(master_->identity());
     result.word = word;
   }
   out.results.push_back(result);
-  out.sent.push_back(truth_);
+  out.sent.push_back(truth_before(0));
   if (!link_there) out.error = error;
-  out.end = link_there ? sampled() : simulator_.now();
+  out.end = link_there ? frame_.sampled : simulator_.now();
   out.begin = std::min(out.begin, out.end);
   return out;
 }
@@ -283,31 +264,47 @@ void set_jitter(sim::LineConfig& cable, sim::Time jitter) {
   dynamic_cast<sim::DuplexConfig&>(cable).in.jitter = jitter;
 }
 
+std::unique_ptr<Session> open_dsl(const sim::Scenario& scenario, const SessionOptions& options) {
+  return std::make_unique<DslSession>(scenario, options);
+}
+
+constexpr SweepCodes kDslSweep{
+    .name = "SAMPLE",
+    .most = std::size(kAllowed) - 1,
+    .divider = [](std::uint64_t /*clk_hz*/,
+                  unsigned /*code*/) { return sim::dsl_model::kTicksPerBit; },
+    .period = "a bit",
+    .allowed = [](unsigned code) { return kAllowed[code]; },
+    .present =
+        [](const sim::Scenario& scenario) {
+          return static_cast<unsigned>(sim::dsl_model::rules_of(scenario.chip).sample);
+        },
+    .set = set_sample,
+    .title = sample_title,
+    .set_jitter = set_jitter};
+
+constexpr std::string_view kNoPosition = "the master has no position";
+
 }  // namespace
+
+const MasterSupport kDslSupport{.type = "dsl",
+                                .check = require_slaves,
+                                .open = open_dsl,
+                                .not_begun = kNoPosition,
+                                .trains = true,
+                                .sweep = kDslSweep};
 
 const MasterSupport kDslModelSupport{
     .type = "dsl-model",
-    .check = [](const sim::Scenario& scenario) { require_slaves(scenario); },
+    .check = require_slaves,
     .open = [](const sim::Scenario& scenario,
                const SessionOptions& options) -> std::unique_ptr<Session> {
       if (options.bus_log) throw UseError("--bus-log: a master of type dsl-model has no bus");
-      return std::make_unique<DslSession>(scenario, options);
+      return open_dsl(scenario, options);
     },
-    .not_begun = "the master has no position",
+    .not_begun = kNoPosition,
     .registers = false,
     .trains = true,
-    .sweep = {.name = "SAMPLE",
-              .most = std::size(kAllowed) - 1,
-              .divider = [](std::uint64_t /*clk_hz*/,
-                            unsigned /*code*/) { return sim::dsl_model::kTicksPerBit; },
-              .period = "a bit",
-              .allowed = [](unsigned code) { return kAllowed[code]; },
-              .present =
-                  [](const sim::Scenario& scenario) {
-                    return static_cast<unsigned>(sim::dsl_model::rules_of(scenario.chip).sample);
-                  },
-              .set = set_sample,
-              .title = sample_title,
-              .set_jitter = set_jitter}};
+    .sweep = kDslSweep};
 
 }  // namespace mb4::tool

@@ -7,6 +7,7 @@
 
 namespace mb4::tool {
 
+extern const MasterSupport kDslSupport;
 extern const MasterSupport kDslModelSupport;
 
 }  // namespace mb4::tool

@@ -1,36 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The manager's pins of AXI4-Lite and of classic Wishbone cycles at a Verilated model. Both have
-//
-//   rest(model)            the levels without an access
-//   clock(model, level)    the clock of the bus
-//   reset(model, active)
-//   begin(model, access)   after an edge: the access is on the pins
-//   before(model, access)  before a rising edge: what the edge transfers. True: the access is done,
-//                          and `access` has the answer
-//   after(model)           after that edge
-//   drop(model)            the manager gives the access up
-#ifndef MB4SIM_MB4_BUS_MANAGERS_HPP_
-#define MB4SIM_MB4_BUS_MANAGERS_HPP_
+// The manager's pins of classic Wishbone cycles at a Verilated model (TwoClockMaster).
+#ifndef MB4SIM_MB4_WISHBONE_MANAGER_HPP_
+#define MB4SIM_MB4_WISHBONE_MANAGER_HPP_
 
 #include <cstdint>
 #include <utility>
 
 #include "sim/hosts/word_access.hpp"
-#include "sim/model/axi_lite_manager.hpp"
 
 namespace mb4::sim {
-
-template <typename Model>
-class AxiManager : public AxiLiteManager<Model> {
- public:
-  void clock(Model& m, bool level) { m.s_axi_aclk = level; }
-  void reset(Model& m, bool active) {
-    m.s_axi_aresetn = !active;
-    this->forget();
-  }
-};
 
 template <typename Model>
 class WishboneManager {
@@ -64,4 +44,4 @@ class WishboneManager {
 
 }  // namespace mb4::sim
 
-#endif  // MB4SIM_MB4_BUS_MANAGERS_HPP_
+#endif  // MB4SIM_MB4_WISHBONE_MANAGER_HPP_
