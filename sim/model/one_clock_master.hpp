@@ -18,21 +18,18 @@
 
 #include <verilated.h>
 
-#include <algorithm>
 #include <cstdint>
 #include <memory>
-#include <string_view>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
-#include "sim/core/trace_error.hpp"
 #include "sim/core/trace_file.hpp"
 #include "sim/model/axi_lite_manager.hpp"
 #include "sim/model/clock_loop.hpp"
 #include "sim/model/clock_source.hpp"
 #include "sim/model/model_rest.hpp"
-#include "sim/model/signal_wave.hpp"
+#include "sim/model/model_wave.hpp"
 #include "sim/model/verilated_context.hpp"
 
 namespace mb4::sim {
@@ -45,7 +42,7 @@ class OneClockMaster : public Interface {
  public:
   Time run_clocks(Time limit) override {
     Verilated::threadContextp(context_.get());
-    return wave_ == nullptr ? run<false>(limit) : run<true>(limit);
+    return wave_.on() ? run<true>(limit) : run<false>(limit);
   }
   void set_clock(Time now, std::uint64_t hz) override {
     if (this->min_clock_ == 0) return;
@@ -69,14 +66,12 @@ class OneClockMaster : public Interface {
     access_.done = true;
   }
 
-  void set_probes(Time now, std::uint64_t ma, std::uint64_t slo, std::uint64_t ready) override {
-    probes_ = {ma, slo, ready};
-    show(now);
+  void set_probes(Time now, std::uint64_t arrived, std::uint64_t sent,
+                  std::uint64_t ready) override {
+    wave_.set_probes(now, {arrived, sent, ready});
   }
-  void stop_wave() override { wave_.reset(); }
-  void finish_trace() override {
-    if (wave_ != nullptr) wave_->flush();
-  }
+  void stop_wave() override { wave_.stop(); }
+  void finish_trace() override { wave_.flush(); }
 
  protected:
   // `plain`: no clock is left out.
@@ -129,41 +124,20 @@ class OneClockMaster : public Interface {
   }
   // An access runs, or an answer is still to come.
   bool busy() const { return !access_.done || manager_.owed(); }
-  void show(Time now) {
-    if (wave_ != nullptr) wave_->show(now);
-  }
-  // Those of the encoder of a master with one line.
-  std::vector<WaveSignal> encoder() const {
-    return {{"encoder_ma", &probes_.ma, sizeof probes_.ma, 0, 1},
-            {"encoder_slo", &probes_.slo, sizeof probes_.slo, 0, 1},
-            {"encoder_ready", &probes_.ready, sizeof probes_.ready, 0, 1}};
-  }
+  void show(Time now) { wave_.show(now); }
   // A waveform from now on, with the signals of the encoders between pins and registers.
   void begin_wave(const TraceFile& file, const char* title, std::vector<WaveSignal> signals,
                   const std::vector<WaveSignal>& encoders) {
     rest_.stirred();
-    if (signals.empty()) throw TraceError(file.path + ": this model writes no waveform");
-    const auto registers = std::find_if(signals.begin(), signals.end(), [](const WaveSignal& one) {
-      return one.path.ends_with("_q") || one.path.find('.') != std::string_view::npos;
-    });
-    signals.insert(registers, encoders.begin(), encoders.end());
-    wave_ = std::make_unique<SignalWave>(file, title, signals);
-    wave_->show(file.from);
+    wave_.begin(file, title, std::move(signals), encoders);
   }
-
-  // Levels at the encoders, bit n = line n, for the waveform.
-  struct Probes {
-    std::uint64_t ma = ~std::uint64_t{0};
-    std::uint64_t slo = ~std::uint64_t{0};
-    std::uint64_t ready = ~std::uint64_t{0};
-  };
 
   std::unique_ptr<VerilatedContext> context_;
   std::unique_ptr<Model> model_;
   AxiLiteManager<Model> manager_;
   ClockSource clock_;
   ModelRest<std::remove_pointer_t<decltype(Model::rootp)>, Counts> rest_;
-  Probes probes_;
+  ModelWave wave_;
 
  private:
   Self& self() { return static_cast<Self&>(*this); }
@@ -173,7 +147,7 @@ class OneClockMaster : public Interface {
     return run_edges(
         clock_, limit, [ this, limit ](Time now, bool rises) __attribute__((always_inline)) {
           const bool changes = rises ? rise(now) : fall(limit, kWave);
-          if constexpr (kWave) wave_->show(now);
+          if constexpr (kWave) wave_.show(now);
           return changes;
         });
   }
@@ -219,7 +193,6 @@ class OneClockMaster : public Interface {
 
   Access access_;
   bool fresh_ = false;  // the access has not been put on the pins
-  std::unique_ptr<SignalWave> wave_;
 };
 
 }  // namespace mb4::sim

@@ -17,7 +17,10 @@
 //
 // `Self`, the class that is made of it, has
 //
-//   Outputs pack() const   the outputs but kAnswered
+//   Outputs pack() const          the outputs but kAnswered
+//   bool falls_quietly()          after a falling edge alone: true if it cannot change anything,
+//   and
+//                                 the model has been told of it
 #ifndef MB4SIM_MODEL_TWO_CLOCK_MASTER_HPP_
 #define MB4SIM_MODEL_TWO_CLOCK_MASTER_HPP_
 
@@ -30,7 +33,7 @@
 
 #include "sim/model/clock_loop.hpp"
 #include "sim/model/clock_source.hpp"
-#include "sim/model/signal_wave.hpp"
+#include "sim/model/model_wave.hpp"
 #include "sim/model/verilated_context.hpp"
 
 namespace mb4::sim {
@@ -55,6 +58,10 @@ class TwoClockMaster : public Interface {
       if (of_core) {
         m.clk_i = core_.edge();
         this->cycles_ += m.clk_i;
+      }
+      if (!rises && !(of_core && m.clk_i != 0) && self().falls_quietly()) {
+        show(now);
+        return false;
       }
       context_->time(now);
       m.eval();
@@ -81,9 +88,11 @@ class TwoClockMaster : public Interface {
     fresh_ = false;
   }
 
-  void finish_trace() override {
-    if (wave_ != nullptr) wave_->flush();
+  void set_probes(Time now, std::uint64_t arrived, std::uint64_t sent,
+                  std::uint64_t ready) override {
+    wave_.set_probes(now, {arrived, sent, ready});
   }
+  void finish_trace() override { wave_.flush(); }
 
  protected:
   TwoClockMaster(std::uint64_t core_hz, std::uint64_t bus_hz, std::uint64_t seed, const char* name)
@@ -127,21 +136,20 @@ class TwoClockMaster : public Interface {
     this->outputs_ = all();
     show(now);
   }
-  void show(Time now) {
-    if (wave_ != nullptr) wave_->show(now);
-  }
+  void show(Time now) { wave_.show(now); }
 
   std::unique_ptr<VerilatedContext> context_;  // outlives the model
   std::unique_ptr<Model> model_;
   Manager manager_;
-  std::unique_ptr<SignalWave> wave_;  // null: none
+  ModelWave wave_;
 
  private:
   // After these the synchronisers of the resets have settled from any state.
   static constexpr unsigned kConditioningEdges = 32;
 
+  Self& self() { return static_cast<Self&>(*this); }
   Outputs all() const {
-    return static_cast<const Self*>(this)->pack() | (answered_ ? Interface::kAnswered : 0);
+    return static_cast<const Self&>(*this).pack() | (answered_ ? Interface::kAnswered : 0);
   }
   // Before a rising edge of the bus.
   void take_answer() {

@@ -89,9 +89,10 @@ class VerilatedAxi final : public OneClockMaster<VerilatedAxi<Model, kChannels, 
     std::vector<WaveSignal> encoders;
     std::vector<std::string> names;
     names.reserve(3 * std::size_t{kChannels});
+    const ModelWave::Probes& probes = this->wave_.probes();
     for (const auto& [name, levels] :
-         {std::pair{"_ma", &this->probes_.ma}, std::pair{"_slo", &this->probes_.slo},
-          std::pair{"_ready", &this->probes_.ready}}) {
+         {std::pair{"_ma", &probes.arrived}, std::pair{"_slo", &probes.sent},
+          std::pair{"_ready", &probes.ready}}) {
       for (unsigned line = 0; line < kChannels; ++line) {
         names.push_back("encoder" + std::to_string(line) + name);
         encoders.push_back({names.back(), levels, sizeof *levels, line, 1});

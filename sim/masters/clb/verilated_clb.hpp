@@ -63,7 +63,8 @@ class VerilatedClb final
   bool sl() const override { return model_->sl_i != 0; }
 
   void start_wave(const TraceFile& file) override {
-    this->begin_wave(file, "mb4sim.biss_clb", Inside::signals(*model_), this->encoder());
+    this->begin_wave(file, "mb4sim.biss_clb", Inside::signals(*model_),
+                     this->wave_.encoder("encoder_ma", "encoder_slo"));
   }
 
  private:

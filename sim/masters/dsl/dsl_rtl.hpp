@@ -41,9 +41,10 @@ class DslRtl : public MasterModel, public WordManager {
   virtual void stop_wave() = 0;
 };
 
-// On return both resets are active, and the line is 1.
+// On return both resets are active, and the line is 1. `plain`: every edge computes the whole
+// model.
 std::unique_ptr<DslRtl> make_dsl_rtl(const ChipConfig& chip, std::uint64_t bus_hz,
-                                     std::uint64_t seed);
+                                     std::uint64_t seed, bool plain);
 
 }  // namespace mb4::sim
 

@@ -54,10 +54,15 @@ std::optional<Time> DslHost::edge_at(std::uint64_t clocks) const {
   return std::nullopt;
 }
 
+std::optional<Time> DslHost::last_edge() const {
+  const Edge& last = edges_[(next_ + edges_.size() - 1) % edges_.size()];
+  return last.at == kNever ? std::nullopt : std::optional(last.at);
+}
+
 LiveDsl::LiveDsl(const MasterSetup& setup)
     : outside_(setup.outside),
       has_line_((setup.lines & MasterModel::of_line(0, DslRtl::kOut)) != 0),
-      model_(make_dsl_rtl(setup.chip, setup.host.bus_hz, setup.seed)),
+      model_(make_dsl_rtl(setup.chip, setup.host.bus_hz, setup.seed, setup.plain)),
       host_(outside_, *model_, kPsPerSecond / setup.host.bus_hz + 1, kLongestDslAccess) {
   if (setup.trace != nullptr) model_->start_wave(*setup.trace);
 }

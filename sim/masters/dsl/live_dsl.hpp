@@ -29,6 +29,7 @@ class DslHost final : public PollingWordHost {
   void begin() { began_ = model_.cycles(); }
   // The edge whose time in the registers is `clocks`. Nothing if it is none of the last few.
   std::optional<Time> edge_at(std::uint64_t clocks) const;
+  std::optional<Time> last_edge() const;
 
  private:
   struct Edge {

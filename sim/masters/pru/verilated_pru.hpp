@@ -67,7 +67,8 @@ class VerilatedPru final : public OneClockMaster<VerilatedPru<Model, Steps, Insi
   bool sl() const override { return model_->sl_i != 0; }
 
   void start_wave(const TraceFile& file) override {
-    this->begin_wave(file, "mb4sim.pru_core", Inside::signals(*model_), this->encoder());
+    this->begin_wave(file, "mb4sim.pru_core", Inside::signals(*model_),
+                     this->wave_.encoder("encoder_ma", "encoder_slo"));
   }
 
  private:

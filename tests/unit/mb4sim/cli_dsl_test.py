@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The openmb4 authors
 # SPDX-License-Identifier: Apache-2.0
-"""The commands with the model of a DSL master. Positions are those of the scenario's source.
+"""The commands with the DSL masters, the model and the RTL. Positions are those of the scenario's source.
 
   cli_dsl_test.py MB4SIM EXAMPLES
 """
@@ -13,17 +13,19 @@ from pathlib import Path
 
 from cli import EXAMPLES, MasterTest, run
 
-HEAD = '[master]\ntype = "dsl-model"\n'
 FRAME_US = 11.52
+CLOCK_US = 1 / 75
 
 
 def motor(keys="", slave=""):
     return f'[[channel]]\nnumber = 1\n{keys}[[channel.slave]]\nprotocol = "dsl"\n{slave}'
 
 
-class Dsl(MasterTest):
-    HEAD = HEAD
+class DslModel(MasterTest):
+    TYPE = "dsl-model"
+    HEAD = f'[master]\ntype = "{TYPE}"\n'
     NAME = "motor.toml"
+    START_US = 0.5  # the first clock
 
     def rows(self, scenario, frames):
         status, got = self.frames(scenario, "--frames", str(frames))
@@ -33,7 +35,10 @@ class Dsl(MasterTest):
         examples = sorted((Path(EXAMPLES) / "dsl").glob("*.toml"))
         self.assertGreaterEqual(len(examples), 3)
         for example in examples:
-            status, rows = self.rows(str(example), 50)
+            text = re.sub(r'type = "dsl(-model)?"', f'type = "{self.TYPE}"', example.read_text(encoding="utf-8"))
+            scenario = self.folder / example.name
+            scenario.write_text(text, encoding="utf-8")
+            status, rows = self.rows(str(scenario), 50)
             self.assertEqual((status, [row["state"] for row in rows]), (0, ["ok"] * 50), example)
 
     def test_clock_of_zero_is_refused_by_each_command(self):
@@ -64,7 +69,7 @@ class Dsl(MasterTest):
         bits = 32 + (2 + 16 + 9 + 9 + 16 + 1 + 3 + 31) * 108 + 9 * 24 + 8
         for number, row in enumerate(rows):
             self.assertAlmostEqual(row["time_us"] - rows[0]["time_us"], number * FRAME_US, delta=1e-9)
-        self.assertAlmostEqual(rows[0]["time_us"], bits / 9.375 + 0.5, delta=0.001)
+        self.assertAlmostEqual(rows[0]["time_us"], bits / 9.375 + self.START_US, delta=0.001)
 
     def test_two_drivers_at_once_are_told(self):
         for keys, slave, told in (("", "", False), ("cable_m = 100\n", "", False),
@@ -325,6 +330,71 @@ class Dsl(MasterTest):
         self.assertEqual(result.returncode, 0, result.stdout)
         self.assertIn("SAMPLE 1: first zero", result.stdout)
         self.assertNotIn("SAMPLE 2", result.stdout)
+
+
+class DslRtl(DslModel):
+    TYPE = "dsl"
+    HEAD = f'[master]\ntype = "{TYPE}"\n'
+    START_US = 0.5 + 3 * CLOCK_US  # the reset ends in the third clock
+
+    def test_what_the_master_has_not_is_refused_in_one_line(self):
+        scenario = self.path(motor())
+        for arguments in (("spi", scenario), ("scan", scenario), ("plot", scenario, "--read", "0x40")):
+            result = run(*arguments)
+            self.assertEqual(result.returncode, 2, arguments)
+            self.assertEqual(result.stdout, "", arguments)
+            self.assertEqual(len(result.stderr.splitlines()), 1, (arguments, result.stderr))
+
+    def test_registers_are_those_of_the_encoder(self):
+        # 20 bits of position in 9 + 11, signed, index 5.
+        text = motor("cable_m = 60\n", "position_bits = 20\nsigned = true\nindex = 5\ndata = 0x54321\n")
+        result = run("regs", self.path(text), "--json")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        fields = {field["name"]: field["value"] for field in json.loads(result.stdout)["fields"]}
+        self.assertEqual(fields["LINK"], 1)
+        self.assertEqual(fields["DELAY"], 7)
+        self.assertEqual(fields["POS_LO"], 0x54321)
+        self.assertEqual(fields["SAFE1_LO"], 0x54321)
+        self.assertEqual(fields["SAFE2_LO"], 0xFFFABCDE)
+        self.assertEqual(fields["LINK_STATE"], 8)
+        self.assertEqual(fields["NUM_RESETS"], 0)
+        self.assertEqual(fields["CHANNELS"], 1)
+
+    def test_bus_of_any_frequency_reads_right_positions(self):
+        for hz in (5_000_000, 10_000_000, 75_000_000, 74_999_000, 100_000_000, 250_000_000):
+            source = 'source = "ramp"\nstep = 1000\nposition_bits = 30\n'
+            status, rows = self.rows(self.path(f"[host]\nbus_hz = {hz}\n" + motor("cable_m = 30\n", source)), 40)
+            self.assertEqual((status, {row["state"] for row in rows}), (0, {"ok"}), hz)
+            steps = {after["position"] - before["position"] for before, after in zip(rows, rows[1:])}
+            if hz >= 75_000_000:
+                self.assertEqual(steps, {1000}, hz)  # no frame is missed
+            else:
+                self.assertEqual({step % 1000 for step in steps}, {0}, hz)
+
+    def test_slow_bus_says_how_many_frames_it_missed(self):
+        result = run("run", self.path("[host]\nbus_hz = 2_000_000\n" + motor()), "--frames", "20")
+        self.assertRegex(result.stdout, r"(?m)^\d+ frames ended before the host had read the one before$")
+        self.assertNotIn("frames ended before", run("run", self.path(motor()), "--frames", "20").stdout)
+
+    def test_bus_log_and_waveform_are_written(self):
+        log, wave = self.folder / "x.log", self.folder / "x.fst"
+        scenario = self.path(motor())
+        result = run("run", scenario, "--frames", "3", "--bus-log", str(log), "--trace", str(wave))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertRegex(log.read_text(encoding="utf-8"), r"(?m)^read 104 [0-9A-F]{8}$")
+        self.assertGreater(wave.stat().st_size, 10_000)
+
+    def test_map_of_the_sdk_brings_the_published_rules(self):
+        text = "[chip.quirks]\nSDK_MAP = true\n" + motor()
+        fields = {field["name"]: field["value"]
+                  for field in json.loads(run("regs", self.path(text), "--json").stdout)["fields"]}
+        self.assertEqual((fields["SDK_MAP"], fields["RECOVERY"], fields["STRICT_CODE"], fields["SAMPLE_RULE"]),
+                         (1, 0, 1, 0))
+        self.assertEqual(fields["CODE_VERSION"], 0x10)
+        text = "[chip.quirks]\nSDK_MAP = true\nRECOVER = true\nSAMPLE = 1\n" + motor()
+        fields = {field["name"]: field["value"]
+                  for field in json.loads(run("regs", self.path(text), "--json").stdout)["fields"]}
+        self.assertEqual((fields["SDK_MAP"], fields["RECOVERY"], fields["SAMPLE_RULE"]), (1, 1, 1))
 
 
 if __name__ == "__main__":

@@ -8,21 +8,18 @@
 #include <optional>
 
 #include "plot/dsl_decode.hpp"
+#include "plot/dsl_seen.hpp"
 #include "plot/timing_svg.hpp"
 #include "report/exit_status.hpp"
 #include "sim/lines/duplex/duplex_line.hpp"
 #include "sim/lines/duplex/duplex_lines.hpp"
-#include "sim/masters/dsl_model/dsl_master.hpp"
+#include "sim/masters/dsl_model/dsl_quirks.hpp"
 
 namespace mb4::tool {
 namespace {
 
 using sim::dsl_model::kAnswerBits;
 using sim::dsl_model::kTicksPerBit;
-using sim::dsl_model::LinkFrame;
-using sim::dsl_model::LinkHost;
-using sim::dsl_model::LinkModel;
-using sim::dsl_model::Restart;
 
 constexpr double kDslMargin = 1;  // cells in front of the frame, and behind it
 constexpr double kTicksToSwitch = 18.0 * kTicksPerBit;  // from the edge in SAMPLE
@@ -32,7 +29,6 @@ class DslPicture final : public LinePicture, private sim::LineObserver {
  public:
   DslPicture(sim::Simulator& simulator, const sim::ChannelConfig& channel)
       : line_(*duplex(simulator.line(channel.number))),
-        model_(simulator.host<LinkHost>("none").model()),
         rules_(sim::dsl_model::rules_of(simulator.scenario().chip)),
         channel_(channel),
         tick_(static_cast<double>(sim::kPsPerSecond) /
@@ -43,11 +39,10 @@ class DslPicture final : public LinePicture, private sim::LineObserver {
 
   // The frame that was read last is drawn.
   void finish(sim::Simulator& simulator) override {
-    frame_ = model_.link().frame();
-    if (frame_.sampled == 0) return;  // there has been none with an answer
-    sampled_ = model_.time_of(frame_.sampled);
+    seen_ = dsl_seen(simulator);
+    if (!seen_) return;
     const double rest = 102 + 6.0 * rules_.start_blocks;  // bits
-    simulator.run_until(sampled_ + static_cast<sim::Time>(rest * kTicksPerBit * tick_));
+    simulator.run_until(seen_->sampled + static_cast<sim::Time>(rest * kTicksPerBit * tick_));
   }
   Picture draw(const PictureRequest& request, sim::Time now) const override;
   std::vector<Signal> signals() const override {
@@ -61,18 +56,16 @@ class DslPicture final : public LinePicture, private sim::LineObserver {
     waves_[place - kFirstWave].edge(now, level);
   }
 
-  const Wave& seen() const { return waves_[2]; }
+  const Wave& line() const { return waves_[2]; }
   std::vector<std::string> notes(const DslFrame& frame) const;
   Diagram diagram(const DslFrame& frame) const;
 
   sim::DuplexLine& line_;
-  LinkModel& model_;
   sim::dsl_model::LinkRules rules_;
   const sim::ChannelConfig& channel_;
   double tick_;  // ps
   std::array<Wave, 4> waves_;
-  LinkFrame frame_;
-  sim::Time sampled_ = 0;
+  std::optional<DslSeen> seen_;
 };
 
 // Position on the axis: a cell is a bit of the master.
@@ -105,45 +98,45 @@ DiagramRow field_row(std::string_view name, const std::vector<Field>& fields,
 
 std::vector<std::string> DslPicture::notes(const DslFrame& frame) const {
   std::string place;
-  if (frame_.number != 0) place = fmt::format(", RX{} of its vertical frame", frame_.place);
+  if (seen_->place) place = fmt::format(", RX{} of its vertical frame", *seen_->place);
   std::vector<std::string> notes{fmt::format(
       "{}, {:.4g} Mbit/s, {}{}, {} bits, {:.4g} us{}", channel_.protocol().title, 1e6 / frame.bit,
       parameter_text(frame.parameter), place, frame.bits, frame.bits * frame.bit / 1e6,
       frame.mistakes.empty() ? std::string() : "; " + frame.mistakes)};
-  if (!frame.late) return notes;
-  const unsigned sample = frame_.sample_place;
+  if (!frame.late || !seen_->told) return notes;
+  const unsigned sample = seen_->sample_place;
   notes.push_back(fmt::format(
       "Answer {:.2f} bits behind SWITCH; DELAY {}, the learned sample is {} of the 8 in a slot, "
       "{:.2f} of a bit behind its begin",
-      *frame.late, frame_.delay, sample % kTicksPerBit,
+      *frame.late, seen_->delay, sample % kTicksPerBit,
       (kTicksToSwitch + rules_.rx_start + sample) / kTicksPerBit - 19 - *frame.late));
-  if (frame_.number == 0) return notes;
+  if (seen_->number == 0) return notes;
   notes.push_back(fmt::format(
       "Second difference {}, position {}{}, speed {}, QM {}",
       frame.words.second_difference ? fmt::format("{:+d}", *frame.words.second_difference)
                                     : std::string("missing"),
-      frame_.position, frame_.lost ? " (not certain)" : "", frame_.speed, frame_.quality));
+      seen_->position, seen_->lost ? " (not certain)" : "", seen_->speed, seen_->quality));
   return notes;
 }
 
 Diagram DslPicture::diagram(const DslFrame& frame) const {
   Diagram diagram;
   diagram.notes = notes(frame);
-  diagram.rows.push_back(wave_row("line", seen(), frame));
+  diagram.rows.push_back(wave_row("line", line(), frame));
   // The bits: the master's in their middle, the encoder's where the master samples.
   DiagramRow bits;
   bits.type = DiagramRow::Type::kDigits;
   bits.name = "bits";
   const auto add = [&](sim::Time time) {
-    bits.digits.push_back({cell(frame, time), seen().at(time) ? "1" : "0"});
+    bits.digits.push_back({cell(frame, time), line().at(time) ? "1" : "0"});
   };
   for (unsigned i = 0; i < frame.bits; ++i) {
     if (!frame.has_answer() || i < kDslSwitch || i >= kDslTrailer) add(frame.at(i + 0.5));
   }
-  if (frame.late) {
-    const double first = kTicksToSwitch + rules_.rx_start + frame_.sample_place;
+  if (frame.late && seen_->told) {
+    const double first = kTicksToSwitch + rules_.rx_start + seen_->sample_place;
     for (unsigned i = 0; i < kAnswerBits; ++i) {
-      add(sampled_ + static_cast<sim::Time>((first + i * kTicksPerBit) * tick_));
+      add(seen_->sampled + static_cast<sim::Time>((first + i * kTicksPerBit) * tick_));
     }
   }
   diagram.rows.push_back(bits);
@@ -160,15 +153,16 @@ Diagram DslPicture::diagram(const DslFrame& frame) const {
 }
 
 Picture DslPicture::draw(const PictureRequest& request, sim::Time /*now*/) const {
-  if (frame_.sampled == 0) throw UseError(fmt::format("{}: there was no frame", request.scenario));
-  const DslFrame frame = decode_dsl(seen(), sampled_, kTicksPerBit * tick_);
+  if (!seen_) throw UseError(fmt::format("{}: there was no frame", request.scenario));
+  const DslFrame frame = decode_dsl(line(), seen_->sampled, kTicksPerBit * tick_);
   Diagram all = diagram(frame);
   all.title = request.title.empty()
                   ? fmt::format("Frame {} of channel {}", request.frame, channel_.number)
                   : request.title;
   // The master has seen the same.
-  const bool same = frame.training() || (frame.late && frame.answer == frame_.answer);
-  return {timing_svg(all), frame.mistakes.empty() && same && frame_.restart == Restart::kNone};
+  const bool same =
+      frame.training() || !seen_->answer || (frame.late && frame.answer == *seen_->answer);
+  return {timing_svg(all), frame.mistakes.empty() && same && !seen_->restart};
 }
 
 std::unique_ptr<LinePicture> record_dsl(sim::Simulator& simulator,

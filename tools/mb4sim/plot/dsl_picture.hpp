@@ -10,7 +10,7 @@
 
 namespace mb4::tool {
 
-// The simulator has the master "dsl-model".
+// The simulator has the masters "dsl" and "dsl-model".
 extern const PictureDecoder kDslPicture;
 
 }  // namespace mb4::tool

@@ -73,6 +73,7 @@ class VerilatedBus final
 
  private:
   // What TwoClockMaster asks for.
+  bool falls_quietly() { return false; }
   Outputs pack() const {
     const Model& m = *model_;
     return m.ma1_o * MasterModel::of_line(0, kMaPin) | m.mo1_o * MasterModel::of_line(0, kMoPin) |

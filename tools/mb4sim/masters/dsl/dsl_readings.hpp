@@ -18,7 +18,7 @@
 namespace mb4::tool {
 
 // A frame with an answer, or the end of a link.
-struct DslFrame {
+struct DslReading {
   std::uint64_t number = 0;  // running frames from 1 on; 0: the line is not that far
   sim::Time sampled = 0;     // the edge in SAMPLE
   bool acceleration_good = true;
@@ -27,7 +27,8 @@ struct DslFrame {
   int speed = 0;
   unsigned quality = 0;
   unsigned delay = 0;
-  bool safe_new = false;  // the frame has ended a vertical frame, which brought these
+  bool safe_new = false;  // a vertical frame has ended, which brought these
+  bool safe_here = true;  // it has ended with this frame
   sim::dsl_model::SafeChannel safe1;
   sim::dsl_model::SafeChannel safe2;
   std::string restart;  // why the link ended with this frame; empty: it goes on
@@ -43,7 +44,7 @@ class DslReadings {
   // Before the first frame. Returns why it failed, or empty.
   virtual std::string begin() { return ""; }
   // Lets time pass up to the next frame, or up to `limit`: then there is none.
-  virtual std::optional<DslFrame> next(sim::Time limit) = 0;
+  virtual std::optional<DslReading> next(sim::Time limit) = 0;
 
   // Restarts of the link so far.
   virtual std::uint64_t restarts() = 0;

@@ -87,7 +87,7 @@ class DslSession final : public Session {
   const sim::DuplexLine& line_;
   const sim::DslSlave& encoder_;
   sim::Time frame_time_;
-  DslFrame frame_;
+  DslReading frame_;
   bool first_ = false;  // frame_ has not been read yet
   bool lost_ = false;   // the link, and its restart has been told
   std::uint64_t failed_starts_ = 0;
@@ -188,7 +188,7 @@ std::string DslSession::judge_safe() const {
   }
   // That of the sample before the vertical frame.
   const auto truth = truth_before(kVertical);
-  if (!bad.empty() || !truth) return bad;
+  if (!bad.empty() || !truth || !frame_.safe_here) return bad;
   const SafePositions right = safe_positions(encoder_.config(), *truth);
   if (frame_.safe1.position != right.first) return "wrong safe position";
   if (frame_.safe2.position != right.second) return "wrong second safe position";
@@ -202,6 +202,9 @@ RunSummary DslSession::summary() const {
     summary.note = fmt::format(
         "two drivers at once: {} times, at most {:.3f} us, {:.3f} us in all, first at {:.3f} us",
         both.times, sim::to_us(both.longest), sim::to_us(both.total), sim::to_us(both.first));
+  }
+  if (const std::string note = master_->note(); !note.empty()) {
+    summary.note += (summary.note.empty() ? "" : "; ") + note;
   }
   return summary;
 }

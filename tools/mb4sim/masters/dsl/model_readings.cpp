@@ -18,11 +18,11 @@ class ModelReadings final : public DslReadings {
   explicit ModelReadings(sim::Simulator& simulator)
       : simulator_(simulator), host_(simulator.host<LinkHost>("none")) {}
 
-  std::optional<DslFrame> next(sim::Time limit) override {
+  std::optional<DslReading> next(sim::Time limit) override {
     simulator_.run_while_waiting([this] { return host_.any(); }, limit);
     const auto frame = host_.take();
     if (!frame) return std::nullopt;
-    DslFrame out;
+    DslReading out;
     out.number = frame->number;
     out.sampled = host_.model().time_of(frame->sampled);
     out.acceleration_good = frame->acceleration_good;

@@ -50,7 +50,7 @@ class RegisterReadings final : public DslReadings {
     const std::uint32_t enable = page::FRAME_ENDED_ENABLE::kMask | page::LINK_LOST_ENABLE::kMask;
     return port_.write(page::kAddrIrqEnable, enable) ? "" : kNoAnswer;
   }
-  std::optional<DslFrame> next(sim::Time limit) override;
+  std::optional<DslReading> next(sim::Time limit) override;
   std::uint64_t restarts() override {
     count_restarts();
     return restarts_;
@@ -65,9 +65,9 @@ class RegisterReadings final : public DslReadings {
   }
 
  private:
-  bool take(DslFrame& frame);
-  bool take_position(DslFrame& frame);
-  bool take_safe(DslFrame& frame);
+  bool take(DslReading& frame);
+  bool take_position(DslReading& frame);
+  bool take_safe(DslReading& frame);
   bool read_safe(unsigned first, SafeChannel& safe, std::uint32_t& age);
   bool read_identity();
   bool count_restarts();
@@ -77,13 +77,14 @@ class RegisterReadings final : public DslReadings {
   WordPort port_;
   sim::Pin irq_;
   std::uint32_t identity_ = 0;
-  std::uint32_t counted_ = 0;   // NUM_RESETS
-  std::uint64_t restarts_ = 0;  // without its wrap
-  std::uint64_t number_ = 0;    // FRAME_COUNT without its wrap
+  std::uint32_t counted_ = 0;        // NUM_RESETS
+  std::uint64_t restarts_ = 0;       // without its wrap
+  std::uint64_t number_ = 0;         // FRAME_COUNT without its wrap
+  std::uint64_t number_before_ = 0;  // of the frame that was read before
   std::uint64_t missed_ = 0;
 };
 
-std::optional<DslFrame> RegisterReadings::next(sim::Time limit) {
+std::optional<DslReading> RegisterReadings::next(sim::Time limit) {
   while (true) {
     simulator_.run_while_waiting([this] { return simulator_.pin(irq_); }, limit);
     std::uint32_t status = 0;
@@ -92,7 +93,7 @@ std::optional<DslFrame> RegisterReadings::next(sim::Time limit) {
       return std::nullopt;
     }
     const std::uint64_t before = restarts_;
-    DslFrame frame;
+    DslReading frame;
     const bool ended = page::FRAME_ENDED::get(status) != 0;
     if ((ended && !take(frame)) || !count_restarts()) return std::nullopt;
     if (restarts_ != before) {
@@ -116,7 +117,7 @@ bool RegisterReadings::count_restarts() {
   return true;
 }
 
-bool RegisterReadings::take(DslFrame& frame) {
+bool RegisterReadings::take(DslReading& frame) {
   return (identity_ != 0 || read_identity()) && take_position(frame) && take_safe(frame);
 }
 
@@ -134,7 +135,7 @@ bool RegisterReadings::read_identity() {
 }
 
 // The first word copies the others.
-bool RegisterReadings::take_position(DslFrame& frame) {
+bool RegisterReadings::take_position(DslReading& frame) {
   std::uint32_t low = 0;
   std::uint32_t high = 0;
   std::uint32_t speed = 0;
@@ -152,6 +153,7 @@ bool RegisterReadings::take_position(DslFrame& frame) {
   if (!done) return false;
   const std::uint32_t since = count - static_cast<std::uint32_t>(number_);
   if (number_ != 0 && since > 1) missed_ += since - 1;
+  number_before_ = number_;
   number_ += since;
   frame.number = number_;
   const std::uint64_t time = std::uint64_t{time_high} << 32U | time_low;
@@ -166,7 +168,7 @@ bool RegisterReadings::take_position(DslFrame& frame) {
   return true;
 }
 
-bool RegisterReadings::take_safe(DslFrame& frame) {
+bool RegisterReadings::take_safe(DslReading& frame) {
   std::uint32_t events = 0;
   std::uint32_t age = 0;
   if (!port_.read(word_at(map::kAddrEventH), events) ||
@@ -175,14 +177,22 @@ bool RegisterReadings::take_safe(DslFrame& frame) {
   }
   constexpr std::uint32_t kOfSafe = map::SCE::kMask | map::VPOS::kMask;
   const std::uint32_t told = byte_of(events, map::kAddrEventH) & kOfSafe;
-  frame.safe_new = told != 0 || (frame.safe1.valid && age == 0);
+  const auto since = static_cast<std::uint32_t>(frame.number - number_before_);
+  frame.safe_new = told != 0 || (frame.safe1.valid && age < since);
   if (!frame.safe_new) return true;
   // Writing 0 clears an event.
   constexpr unsigned kLane = map::kAddrEventH & 3U;
   const std::uint32_t kept = ~told & 0xFFU;
-  return (told == 0 || port_.write(word_at(map::kAddrEventH), kept << 8 * kLane,
-                                   static_cast<std::uint8_t>(1U << kLane))) &&
-         read_safe(page::kAddrSafe2Lo, frame.safe2, age);
+  std::uint32_t again = 0;
+  std::uint32_t count = 0;
+  std::uint32_t age2 = 0;
+  const bool done = (told == 0 || port_.write(word_at(map::kAddrEventH), kept << 8 * kLane,
+                                              static_cast<std::uint8_t>(1U << kLane))) &&
+                    read_safe(page::kAddrSafe2Lo, frame.safe2, age2) &&
+                    port_.read(page::kAddrPosLo, again) && port_.read(page::kAddrFrameCount, count);
+  // On a slow bus they may be those of another frame.
+  frame.safe_here = age == 0 && count == static_cast<std::uint32_t>(frame.number);
+  return done;
 }
 
 // Both groups have the same form.
