@@ -44,7 +44,7 @@ INSTEAD = {
     "enc_wb": "proof wb",
     "dsl_judge": "through dsl_line",
     "dsl_learn": "through dsl_receiver",
-    "dsl_bridge": "through dsl_axil",
+    "dsl_bridge": "through dsl_bus",
     "dsl_bus": "through dsl_axil",
     "dsl_map": "through dsl_regs",
     "dsl_program": "through dsl_position",
