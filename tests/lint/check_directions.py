@@ -86,7 +86,8 @@ MAY_USE = {
     "sim/masters/": ("sim/core/", "sim/hosts/"),
     "sim/masters/mb4/hints/": ("sim/core/", "sim/hosts/", "sim/lines/", "sim/masters/", "sim/masters/mb4/pins",
                                "sim/masters/mb4/ma_frequency", "regmap/"),
-    **{f"sim/masters/{master.name}/": ("sim/core/", "sim/hosts/", "sim/masters/", "sim/model/", *LINES[master.line])
+    **{f"sim/masters/{master.name}/": ("sim/core/", "sim/hosts/", "sim/lines/", "sim/masters/", "sim/model/", "regmap/",
+                                         *LINES[master.line])
        for master in MASTERS},
     **{master.room: (*master.uses, *(["regmap/"] if master.maps else [])) for master in MASTERS if master.list},
     **{name: ("drivers/include/enc/", "regmap/") for name in OTHER_DRIVERS},

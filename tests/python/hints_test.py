@@ -56,3 +56,47 @@ def test_hints_are_those_of_the_report_and_their_text_is_a_sentence():
         chip.regs.SCDLEN1.modify(27)
         chip.driver.read_all(1)
         assert chip.hints() == []
+
+
+AXI = """[master]
+type = "axi"
+[chip]
+f_clk_hz = 100_000_000
+[[channel]]
+number = 1
+[[channel.slave]]
+protocol = "biss-c"
+data_bits = 28
+crc = CRC
+[[channel]]
+number = 2
+[[channel.slave]]
+protocol = "biss-c"
+data_bits = 28
+crc = CRC
+"""
+
+
+@pytest.mark.parametrize("crc, position_bits, enable, expected", [
+    ("0x43", 26, 3, []),
+    ("0x43", 26, 1, []),  # the second one is left out
+    ("0x43", 28, 3, [("length", "slave 1", "28 bits, the master takes 30"),
+                     ("length", "slave 2", "28 bits, the master takes 30")]),
+    ("0x43", 26, 4, [("enable", "chip", "CHANNEL_ENABLE")]),
+    ("0x25", 26, 1, [("crc", "slave 1", "0x25, that of the master 0x43")])])
+def test_hints_of_biss_axi(crc, position_bits, enable, expected):
+    with openmb4.Simulator(AXI.replace("CRC", crc)) as chip:
+        for address, value in ((0x08, 1), (0x14, 5), (0x18, position_bits), (0x1C, 1), (0x20, enable)):
+            chip.axi_write(address, value)
+        assert chip.hints() == []  # no word has been asked for
+        chip.axi_write(0x0C, 1)
+        chip.advance_ns(50_000)
+        hints = chip.hints()
+        assert [(hint.kind, hint.place) for hint in hints] == [one[:2] for one in expected]
+        assert all(one[2] in hint.text for one, hint in zip(expected, hints))
+        if not expected:  # a fault is no mistake
+            chip.inject({"fault": [{"kind": "silent", "slave": 1, "at_us": 0}]})
+            chip.axi_write(0x0C, 0)
+            chip.axi_write(0x0C, 1)
+            chip.advance_ns(50_000)
+            assert chip.hints() == []

@@ -62,6 +62,7 @@ std::optional<StreamBeat> AxiHost::next_beat() {
 
 LiveAxi::LiveAxi(const MasterSetup& setup)
     : outside_(setup.outside),
+      config_(setup.chip),
       lines_(setup.lines),
       model_(make_axi_model(setup.chip, channels_of(setup.lines), setup.seed, setup.plain)),
       host_(outside_, *model_,
@@ -86,9 +87,11 @@ void LiveAxi::set_pin(Time now, Pin pin, bool level) {
   if (!can_set(pin)) return;
   if (pin == kAresetn) {
     aresetn_ = level;
+    host_.setup().restart();
     model_->set_reset(now, !level);
   } else if (pin == kPorN) {
     por_n_ = level;
+    if ((config_.quirks & kAxiPorPin) != 0) host_.setup().restart();
     model_->set_power_on_reset(now, !level);
   } else if (pin == kExtSampleClk) {
     model_->set_ext_sample_clk(now, level);

@@ -13,6 +13,7 @@
 #include "sim/hosts/host_pins.hpp"
 #include "sim/hosts/word_access.hpp"
 #include "sim/hosts/word_host.hpp"
+#include "sim/masters/axi/axi_hints.hpp"
 #include "sim/masters/axi/axi_model.hpp"
 #include "sim/masters/live_master.hpp"
 
@@ -26,7 +27,11 @@ class AxiHost final : public PollingWordHost, public StreamSink {
       : PollingWordHost(outside, model, period, 1000, 0xFF), model_(model) {}
 
   using PollingWordHost::read;
-  using PollingWordHost::write;
+  std::optional<std::uint8_t> write(std::uint32_t address, std::uint32_t data,
+                                    std::uint8_t strobe) override {
+    setup_.written(address, data, strobe);
+    return PollingWordHost::write(address, data, strobe);
+  }
   // Writes all four bytes.
   std::optional<std::uint8_t> write(std::uint32_t address, std::uint32_t data) {
     return write(address, data, 0xF);
@@ -39,8 +44,11 @@ class AxiHost final : public PollingWordHost, public StreamSink {
   std::optional<StreamBeat> next_beat() override;
   std::size_t beats_waiting() const { return model_.beats().size(); }
 
+  AxiSetup& setup() { return setup_; }
+
  private:
   AxiModel& model_;
+  AxiSetup setup_;
 };
 
 class LiveAxi final : public LiveMaster {
@@ -59,9 +67,13 @@ class LiveAxi final : public LiveMaster {
   void stop_trace() override { model_->stop_wave(); }
 
   HostModel* host(std::string_view name) override { return name == "axi" ? &host_ : nullptr; }
+  std::vector<Hint> hints(std::span<const HintLine> lines, std::uint64_t missed) override {
+    return host_.setup().hints(config_, lines, missed);
+  }
 
  private:
   HostPins& outside_;
+  const ChipConfig& config_;
   MasterModel::Outputs lines_;
   std::unique_ptr<AxiModel> model_;
   AxiHost host_;
