@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/core/number_text.hpp"
 
+#ifdef __EMSCRIPTEN__
+#include <fast_float/fast_float.h>
+#endif
+
 #include <charconv>
 #include <cstdio>
 #include <sstream>
@@ -22,6 +26,19 @@ std::optional<std::uint64_t> parse_word(std::string_view text) {
   const char* const end = digits.data() + digits.size();
   const auto [stop, error] = std::from_chars(digits.data(), end, value, base);
   if (digits.empty() || error != std::errc() || stop != end) return std::nullopt;
+  return value;
+}
+
+std::optional<double> parse_real(std::string_view text) {
+#ifdef __EMSCRIPTEN__  // std::from_chars of its library takes whole numbers only
+  using fast_float::from_chars;
+#else
+  using std::from_chars;
+#endif
+  double value = 0;
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = from_chars(text.data(), end, value);
+  if (error != std::errc() || stop != end) return std::nullopt;
   return value;
 }
 

@@ -17,6 +17,9 @@ namespace mb4::sim {
 // Returns nothing if the text is not such a number or does not fit into 64 bits.
 std::optional<std::uint64_t> parse_word(std::string_view text);
 
+// Returns nothing if the text is no decimal number, or has more behind it.
+std::optional<double> parse_real(std::string_view text);
+
 // Returns `value` as an output stream writes it.
 std::string plain(double value);
 

@@ -11,21 +11,23 @@
 
 namespace mb4::sim {
 
-std::string read_text_file(const std::string& path) {
+std::string read_text_file(const std::string& path, std::size_t mib) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) {
     throw ScenarioError(path + ": cannot read: it is a directory");
   }
-  constexpr std::size_t kMaxSize = std::size_t{16} << 20U;  // a device may have no end
+  const std::size_t limit = mib << 20U;  // a device may have no end
   errno = 0;
   std::ifstream in(path, std::ios::binary);
   std::string text;
   char part[65536];
-  while (in && text.size() <= kMaxSize) {
+  while (in && text.size() <= limit) {
     in.read(part, sizeof part);
     text.append(part, static_cast<std::size_t>(in.gcount()));
   }
-  if (text.size() > kMaxSize) throw ScenarioError(path + ": cannot read: more than 16 MiB");
+  if (text.size() > limit) {
+    throw ScenarioError(path + ": cannot read: more than " + std::to_string(mib) + " MiB");
+  }
   if (!in.eof()) {
     throw ScenarioError(path + ": cannot read: " + std::strerror(errno != 0 ? errno : EIO));
   }

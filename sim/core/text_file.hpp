@@ -5,12 +5,13 @@
 #ifndef MB4SIM_TEXT_FILE_HPP_
 #define MB4SIM_TEXT_FILE_HPP_
 
+#include <cstddef>
 #include <string>
 
 namespace mb4::sim {
 
-// Returns the whole file, up to 16 MiB. Throws ScenarioError "path: cannot read: reason".
-std::string read_text_file(const std::string& path);
+// Returns the whole file, up to `mib` MiB. Throws ScenarioError "path: cannot read: reason".
+std::string read_text_file(const std::string& path, std::size_t mib = 16);
 
 // Returns the path of `file`, which scenario `scenario` names relative to its own folder.
 std::string beside(const std::string& scenario, const std::string& file);

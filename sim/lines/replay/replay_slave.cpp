@@ -12,8 +12,10 @@ std::unique_ptr<Slave> ReplaySlaveConfig::make_slave(std::uint64_t /*seed*/) con
 
 // It counts as the protocol that can be recorded, BiSS C.
 DeviceTraits ReplaySlaveConfig::traits() const {
+  Time longest = 0;
+  for (const auto& frame : recording.frames) longest = std::max(longest, frame.edges.back().time);
   return {.protocol = {.key = "biss-c", .title = "BiSS C", .control = true},
-          .timeout = recording.edges.empty() ? 0 : recording.edges.back().time,
+          .timeout = longest,
           .alone = "a replay slave"};
 }
 
@@ -25,6 +27,10 @@ std::string_view ReplaySlaveConfig::refuses(const SlaveFault& fault) const {
 ReplaySlave::ReplaySlave(const ReplaySlaveConfig& config)
     : config_(config),
       timeout_(config.timeout.adaptive() ? config.timeout.initial : config.timeout.fixed) {}
+
+const std::vector<ReplayRecording::Edge>& ReplaySlave::edges() const {
+  return config_.recording.frames[frame_].edges;
+}
 
 void ReplaySlave::ma_edge(Time now, bool ma, bool /*sli_before*/, bool /*sli*/) {
   ma_ = ma;
@@ -46,7 +52,7 @@ void ReplaySlave::ma_edge(Time now, bool ma, bool /*sli_before*/, bool /*sli*/) 
 }
 
 ReplaySlave::Place ReplaySlave::place(std::size_t index) const {
-  const Time time = config_.recording.edges[index].time;
+  const Time time = edges()[index].time;
   const Time period = kPsPerSecond / config_.recording.ma_hz;
   // Rising edge n comes (n - 1/2) periods after the first falling edge.
   const std::uint64_t rising = (time + period / 2) / period;
@@ -56,9 +62,9 @@ ReplaySlave::Place ReplaySlave::place(std::size_t index) const {
 
 // Time of the next recorded edge if it is known, else kNever.
 Time ReplaySlave::next_edge() const {
-  if (next_ >= config_.recording.edges.size()) return kNever;
+  if (next_ >= edges().size()) return kNever;
   if (config_.play == ReplaySlaveConfig::Play::kTime) {
-    return first_falling_ + config_.recording.edges[next_].time;
+    return first_falling_ + edges()[next_].time;
   }
   const Place at = place(next_);
   if (at.rising > risings_.size()) return kNever;
@@ -72,18 +78,21 @@ void ReplaySlave::wait() {
 }
 
 void ReplaySlave::play_due(Time now) {
-  while (next_edge() <= now) set_slo(config_.recording.edges[next_++].level);
+  while (next_edge() <= now) set_slo(edges()[next_++].level);
 }
 
 void ReplaySlave::timer(Time now, bool /*sli*/) {
   play_due(now);
   const bool time_mode = config_.play == ReplaySlaveConfig::Play::kTime;
-  const bool over =
-      time_mode ? next_ == config_.recording.edges.size() : now >= last_edge_ + timeout_;
+  const bool over = time_mode ? next_ == edges().size() : now >= last_edge_ + timeout_;
   if (over) {
     if (risings_.size() >= 3) take_cdm(!ma_);
     active_ = false;
     set_slo(true);
+    // A few clocks, as INIT makes them, are no reading of the frame.
+    if (2 * risings_.size() >= config_.recording.frames[frame_].rising) {
+      frame_ = (frame_ + 1) % config_.recording.frames.size();
+    }
   }
   wait();
 }

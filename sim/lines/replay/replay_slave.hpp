@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A slave that plays a recorded frame whenever a frame starts. It does not know BiSS. In idle it
-// answers the first falling edge of MA with the recorded edges of SL.
+// A slave that plays the next recorded frame whenever a frame starts, after the last one the first.
+// It does not know BiSS. In idle it answers the first falling edge of MA with the recorded edges of
+// SL.
 #ifndef MB4SIM_REPLAY_SLAVE_HPP_
 #define MB4SIM_REPLAY_SLAVE_HPP_
 
@@ -71,6 +72,9 @@ class ReplaySlave final : public ClockedSlave {
   void wait();
 
   ReplaySlaveConfig config_;
+  const std::vector<ReplayRecording::Edge>& edges() const;
+
+  std::size_t frame_ = 0;  // of the recording
   bool active_ = false;
   bool ma_ = true;
   std::size_t next_ = 0;

@@ -84,6 +84,27 @@ TEST(ReplaySlave, RemainderLongerThanHalfAPeriod_BelongsToTheEarlierClockEdge) {
   EXPECT_EQ(bench.slo.front(), std::make_pair(kStart + (750 + 700) * kPsPerNs, false));
 }
 
+// A capture of two frames of 6 clocks: they are played in turn. Two clocks, as a line test makes
+// them, are no reading, so the same frame comes again.
+TEST(ReplaySlave, TwoFrames_ArePlayedInTurn) {
+  ChainBench bench;
+  ReplaySlaveConfig config;
+  config.recording.ma_hz = 1'000'000;
+  config.recording.frames = {{{{1'600'000, false}, {9'000'000, true}}, 6},
+                             {{{1'700'000, false}, {9'000'000, true}}, 6}};
+  bench.chain.add(std::make_unique<ReplaySlave>(config));
+  const auto answers_after = [&](Time begin, unsigned clocks) {
+    bench.slo.clear();
+    bench.frame(begin, kPsPerUs, clocks);
+    bench.run_until(begin + 40 * kPsPerUs);
+    return bench.slo.empty() ? 0 : bench.slo.front().first - begin;
+  };
+  EXPECT_EQ(answers_after(100 * kPsPerUs, 6), 1'600'000U);
+  EXPECT_EQ(answers_after(200 * kPsPerUs, 2), 1'700'000U);
+  EXPECT_EQ(answers_after(300 * kPsPerUs, 6), 1'700'000U);
+  EXPECT_EQ(answers_after(400 * kPsPerUs, 6), 1'600'000U);
+}
+
 struct BadRecording {
   const char* name;
   const char* text;
