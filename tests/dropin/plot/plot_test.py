@@ -7,6 +7,7 @@ and that those of the manual are what the command draws.
   plot_test.py MB4SIM ROOT [--write]      --write: draws the manual's pictures again
 """
 
+import json
 import re
 import shutil
 import subprocess
@@ -262,6 +263,58 @@ class Plot(unittest.TestCase):
         body = vcd.split("$enddefinitions $end\n#0\n", 1)[1]
         self.assertEqual(body.count(f"\n0{ma}\n"), 39)
 
+    def wavejson(self, *arguments, status=0):
+        """The signals of the picture as WaveJSON: {name: (states of each tick, [(tick, label), ...])}."""
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder, "frame.json")
+            result = plot(*arguments, "--wavejson", str(path))
+            self.assertEqual((result.returncode, result.stdout), (status, ""), result.stderr)
+            found = json.loads(path.read_text(encoding="utf-8"))
+        self.assertEqual(set(found), {"signal", "head", "foot"})
+        rows = []
+        for signal in found["signal"]:
+            states, boxes, labels = "", [], signal.get("data", [])
+            for tick, state in enumerate(signal["wave"]):
+                self.assertIn(state, "01z.|2345679")
+                if state in "2345679":
+                    boxes.append((tick, labels[len(boxes)]))
+                states += states[-1] if state in ".|" else state
+            self.assertEqual(len(boxes), len(labels), signal)
+            rows.append((signal["name"], states, boxes))
+        self.assertEqual(len({len(states) for _, states, _ in rows}), 1, "signals of one length")
+        return rows
+
+    def test_wavejson_has_the_golden_word(self):
+        rows = self.wavejson(GOLDEN)
+        names = [name for name, _, _ in rows if name]
+        self.assertEqual(names, ["MA", "SL"])
+        ma = next(states for name, states, _ in rows if name == "MA")
+        self.assertEqual(len(re.findall("1+0", ma)), 39)
+        sl = next(states for name, states, _ in rows if name == "SL")
+        boxes = rows[-1][2]
+        # Four ticks a period: each bit in its middle, from the start bit on.
+        start = next(tick for tick, label in boxes if label == "start")
+        bits = "".join(sl[start + 2 + 4 * i] for i in range(2 + 28 + 6))
+        self.assertEqual(bits, f"10{0xAAF37BF:028b}100111")  # the published CRC 0x18, inverted
+        labels = [label for _, label in boxes]
+        self.assertEqual(labels[:3], ["Ack", "start", "CDS"])
+        self.assertTrue(any("0x2ABCDEF" in label for label in labels), labels)
+
+    def test_wavejson_of_an_access_has_a_tick_a_frame(self):
+        rows = self.wavejson("docs/pictures/registers.toml", "--read", "0x67")
+        cdm, cds = (next(states for name, states, _ in rows if name == wanted) for wanted in ("CDM", "CDS"))
+        self.assertIn(READ_CDM.replace(" ", ""), cdm)
+        self.assertIn(READ_CDS.replace(" ", ""), cds)
+
+    def test_wavejson_of_a_wrong_crc_is_red_and_of_a_rest_has_a_gap(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder, "a.json")
+            self.assertEqual(plot("docs/pictures/bad-crc.toml", "--wavejson", str(path)).returncode, 1)
+            self.assertRegex(path.read_text(encoding="utf-8"), '"wave": "[^"]*9')
+            self.assertEqual(plot("docs/pictures/chain.toml", "--wavejson", str(path)).returncode, 0)
+            waves = re.findall('"wave": "([^"]*)"', path.read_text(encoding="utf-8"))
+            self.assertTrue(all("|" in wave for wave in waves), waves)
+
     def test_wrong_use(self):
         registers = "docs/pictures/registers.toml"
         for arguments in ([], ["nothing.toml"], [GOLDEN, "--frame", "0"],
@@ -271,7 +324,7 @@ class Plot(unittest.TestCase):
                           [registers, "--write", "1:256"], [registers, "--command", "4"],
                           [registers, "--command", "0:9"],
                           [registers, "--read", "1", "--write", "1:1"],
-                          [GOLDEN, "--svg", GOLDEN], [GOLDEN, "--svg", "/no/folder/x.svg"]):
+                          [GOLDEN, "--svg", GOLDEN], [GOLDEN, "--wavejson", GOLDEN], [GOLDEN, "--svg", "/no/folder/x.svg"]):
             with self.subTest(arguments=arguments):
                 result = plot(*arguments)
                 self.assertEqual(result.returncode, 2)

@@ -111,14 +111,15 @@ int bridge_command(const BridgeOptions& options);
 struct PlotOptions {
   std::string scenario;
   unsigned channel = 1;
-  unsigned frame = 1;   // counted from 1
-  unsigned id = 0;      // of the slave whose registers are meant
-  std::string read;     // "ADDRESS[:COUNT]"
-  std::string write;    // "ADDRESS:BYTE,..."
-  std::string command;  // "CODE[:ID,...]"; all empty: a frame
-  std::string title;    // empty: made from the above
-  std::string svg;      // empty: standard output, unless there is a vcd
-  std::string vcd;      // empty: none
+  unsigned frame = 1;    // counted from 1
+  unsigned id = 0;       // of the slave whose registers are meant
+  std::string read;      // "ADDRESS[:COUNT]"
+  std::string write;     // "ADDRESS:BYTE,..."
+  std::string command;   // "CODE[:ID,...]"; all empty: a frame
+  std::string title;     // empty: made from the above
+  std::string svg;       // empty: standard output, unless there is another file
+  std::string wavejson;  // empty: none
+  std::string vcd;       // empty: none
   std::optional<std::uint64_t> seed;
 };
 int plot_command(const PlotOptions& options);

@@ -98,6 +98,8 @@ void add_plot(CLI::App& app, Action& action) {
   plot.add_option("--title", options->title, "Heading of the picture")->type_name("TEXT");
   add_output(plot, "--svg", options->svg, "Write the picture to a file (default standard output)",
              "F.svg");
+  add_output(plot, "--wavejson", options->wavejson, "Write the same picture for WaveDrom",
+             "F.json");
   add_output(plot, "--vcd", options->vcd, "Write MA, MO and SL of the whole run, for sigrok",
              "F.vcd");
   add_seed(plot, options->seed);

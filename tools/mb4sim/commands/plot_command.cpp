@@ -13,6 +13,7 @@
 #include "commands/commands.hpp"
 #include "plot/pictures.hpp"
 #include "plot/vcd_writer.hpp"
+#include "plot/wave_json.hpp"
 #include "report/exit_status.hpp"
 #include "report/output_file.hpp"
 #include "report/trace_file.hpp"
@@ -131,15 +132,19 @@ int plot_command(const PlotOptions& options) {
   support.check(scenario);
   check(options, scenario);
   std::vector<Output> outputs;
-  for (const auto& [name, path] : {std::pair{"--svg", options.svg}, {"--vcd", options.vcd}}) {
+  for (const auto& [name, path] : {std::pair{"--svg", options.svg},
+                                   {"--wavejson", options.wavejson},
+                                   {"--vcd", options.vcd}}) {
     if (path.empty()) continue;
     outputs.push_back({name, path});
     outputs.push_back({name, partial_path(path)});
   }
   require_distinct(outputs, inputs_of(options.scenario, scenario));
   std::unique_ptr<OutputFile> svg;
+  std::unique_ptr<OutputFile> wavejson;
   std::unique_ptr<OutputFile> vcd;
   if (!options.svg.empty()) svg = std::make_unique<OutputFile>(options.svg);
+  if (!options.wavejson.empty()) wavejson = std::make_unique<OutputFile>(options.wavejson);
   if (!options.vcd.empty()) vcd = std::make_unique<OutputFile>(options.vcd);
 
   SessionOptions session_options;
@@ -167,10 +172,11 @@ int plot_command(const PlotOptions& options) {
       {options.frame, is_control(options), options.scenario, options.title}, simulator.now());
   if (!error.empty()) fmt::print(stderr, "mb4sim: {}\n", error);
   if (vcd != nullptr) vcd->commit(lines_vcd(pictures, simulator.now()));
+  if (wavejson != nullptr) wavejson->commit(wave_json(picture.diagram));
   if (svg != nullptr) {
-    svg->commit(picture.svg);
-  } else if (vcd == nullptr) {
-    fmt::print("{}", picture.svg);
+    svg->commit(timing_svg(picture.diagram));
+  } else if (vcd == nullptr && wavejson == nullptr) {
+    fmt::print("{}", timing_svg(picture.diagram));
   }
   return error.empty() && picture.good ? kGood : kBad;
 }

@@ -59,7 +59,7 @@ Picture ClockedPicture::frame(const PictureRequest& request, sim::Time now) cons
   const std::string title =
       request.title.empty() ? fmt::format("Frame {} of channel {}", request.frame, channel_.number)
                             : request.title;
-  return {timing_svg(frame_diagram(recording_, decoded, channel_, title)), decoded.good};
+  return {frame_diagram(recording_, decoded, channel_, title), decoded.good};
 }
 
 Picture ClockedPicture::control(const PictureRequest& request, sim::Time now) const {
@@ -76,7 +76,7 @@ Picture ClockedPicture::control(const PictureRequest& request, sim::Time now) co
   const std::string title = request.title.empty()
                                 ? fmt::format("Control frame of channel {}", channel_.number)
                                 : request.title;
-  return {timing_svg(control_diagram(bits, frame, title)), frame.good};
+  return {control_diagram(bits, frame, title), frame.good};
 }
 
 std::unique_ptr<LinePicture> record(sim::Simulator& simulator, const sim::ChannelConfig& channel) {

@@ -162,7 +162,7 @@ Picture DslPicture::draw(const PictureRequest& request, sim::Time /*now*/) const
   // The master has seen the same.
   const bool same =
       frame.training() || !seen_->answer || (frame.late && frame.answer == *seen_->answer);
-  return {timing_svg(all), frame.mistakes.empty() && same && !seen_->restart};
+  return {all, frame.mistakes.empty() && same && !seen_->restart};
 }
 
 std::unique_ptr<LinePicture> record_dsl(sim::Simulator& simulator,

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "mb4sim/simulator.hpp"
+#include "plot/timing_svg.hpp"
 #include "plot/wave.hpp"
 #include "sim/lines/line_kind.hpp"
 #include "sim/scenario/scenario.hpp"
@@ -26,7 +27,7 @@ struct PictureRequest {
 };
 
 struct Picture {
-  std::string svg;
+  Diagram diagram;
   bool good = false;  // what is on the line is complete, and every check of it is right
 };
 
