@@ -15,11 +15,11 @@ constexpr unsigned kFlagsOfEncoders = 2;
 constexpr std::size_t kMaxEdgesMib = 16;
 constexpr std::size_t kMaxCaptureMib = 256;
 
-// Reads the file that `key` names; its mistakes become those of the scenario.
+// Reads the file `name` of a key; its mistakes become those of the scenario.
 template <typename Parse>
-ReplayRecording read_file(TomlReader& reader, const char* key, std::size_t mib, std::string& file,
-                          Parse parse) {
-  file = beside(reader.file().name, *reader.file_name(key));
+ReplayRecording read_file(TomlReader& reader, const char* key, const std::string& name,
+                          std::size_t mib, std::string& file, Parse parse) {
+  file = beside(reader.file().name, name);
   std::string bytes;
   try {
     bytes = read_text_file(file, mib);
@@ -34,26 +34,28 @@ ReplayRecording read_file(TomlReader& reader, const char* key, std::size_t mib, 
 }
 
 void read_edges(TomlReader& reader, ReplaySlaveConfig& config, std::string& file) {
-  if (!reader.has("edges")) {
+  const auto name = reader.file_name("edges");
+  if (!name) {
     reader.missing("edges", "missing: protocol \"replay\" needs a file of edges, or a 'capture'");
     return;
   }
-  config.recording = read_file(reader, "edges", kMaxEdgesMib, file, parse_recording);
+  config.recording = read_file(reader, "edges", *name, kMaxEdgesMib, file, parse_recording);
 }
 
 void read_capture(TomlReader& reader, ReplaySlaveConfig& config, std::string& file) {
   if (reader.has("edges")) reader.fail("edges", "not together with 'capture'");
+  const auto name = reader.file_name("capture");
   CaptureNames names;
-  for (const auto& [key, name] : {std::pair{"ma", &names.ma}, {"sl", &names.sl}}) {
+  for (const auto& [key, signal] : {std::pair{"ma", &names.ma}, {"sl", &names.sl}}) {
     const auto text = reader.text(key);
     if (!text) reader.missing(key, "missing: the name of this signal in the capture");
-    *name = text.value_or("");
+    *signal = text.value_or("");
   }
   const std::size_t invert = reader.choice("invert", {"none", "ma", "sl", "both"}).value_or(0);
   const Time rest = from_us(reader.number("rest_us", 0, 1e6).value_or(0));
   const auto frame = reader.integer("frame", 1, 1'000'000'000);
   if (names.ma.empty() || names.sl.empty()) return;
-  config.recording = read_file(reader, "capture", kMaxCaptureMib, file,
+  config.recording = read_file(reader, "capture", *name, kMaxCaptureMib, file,
                                [&](std::string_view bytes, const std::string& path) {
                                  Capture capture = parse_capture(bytes, path, names);
                                  if (invert == 1 || invert == 3) capture.ma.invert();

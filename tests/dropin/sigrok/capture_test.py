@@ -141,6 +141,11 @@ class Captures(unittest.TestCase):
         self.refused("key 'edges': not together with 'capture'", "line.vcd", "edges = 'a'\n")
         self.refused("key 'rest_us'", "line.vcd", "rest_us = -1\n")
         self.refused("cannot read", "missing.vcd")
+        scenario = self.work / "no_names.toml"
+        scenario.write_text(REPLAY.replace('ma = "MA1"\n', "").format(ma_hz=2_500_000, sl="SL1")
+                            + 'capture = "line.vcd"\n')
+        self.assertIn("key 'ma': missing: the name of this signal in the capture",
+                      run(MB4SIM, "run", scenario).stderr)
         self.refused("expected a capture with the ending .vcd, .sr or .csv", "replay.toml")
         self.refused("expected a signal 'SL9', the file has 'line.MA1', 'line.MO1', 'line.SL1'", "line.vcd",
                      sl="SL9")
