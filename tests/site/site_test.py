@@ -4,6 +4,7 @@
 """Builds the documentation site and reads it as a browser would: site_test.py ROOT FOLDER. Exit status
 77: Python's venv or PyPI is missing."""
 
+import json
 import re
 import subprocess
 import sys
@@ -126,6 +127,23 @@ def check_navigation(root, html, pages):
         assert shown[:len(wanted)] == wanted, f"{heading}: {shown} instead of {wanted}"
 
 
+def check_pages_only(root, html, pages):
+    """The site and its search have pages of the repository, and one page that lists files. A source is a text."""
+    made = {"genindex", "search", "files", "index", "chip"}
+    for path in pages:
+        name = path.relative_to(html).with_suffix("")
+        assert str(name) in made or (root / f"{name}.md").is_file(), f"{name}: a page of the site only"
+    index = (html / "searchindex.js").read_text(encoding="utf-8")
+    names = json.loads(re.search(r'"?docnames"?:(\[.*?\])', index)[1])
+    assert all(name in made or (root / f"{name}.md").is_file() for name in names), names
+    # The first word is on a page. The second one is in a source that a page links to, and on no page.
+    assert "halspibus" in index and "priu32" not in index
+    link = "../files/examples/mcu/stm32/encoder.cpp.txt"
+    assert link in pages[html / "docs/boards.html"].links
+    assert (html / "docs" / link).resolve().read_bytes() == (root / "examples/mcu/stm32/encoder.cpp").read_bytes()
+    assert "files.html#folder-regmap" in pages[html / "index.html"].links
+
+
 def main(root, folder):
     root, html = Path(root).resolve(), Path(folder).resolve() / "html"
     check_checker()
@@ -144,6 +162,7 @@ def main(root, folder):
     pages, found = findings(html)
     check_dialect(root, html, pages)
     check_navigation(root, html, pages)
+    check_pages_only(root, html, pages)
     if "../chip.html" not in pages[html / "docs/browser.html"].links:
         found.append("docs/browser.html: no link to the chip's page")
     print("\n".join(found) or f"{len(pages)} pages, "

@@ -28,10 +28,11 @@ if ! cmp -s "$here/requirements.txt" "$folder/requirements.txt"; then
 fi
 
 [ -f "$chip" ] || chip=
-"$folder/venv/bin/python" -B "$here/pages.py" "$root" "$folder/source" ${chip:+"$chip"}
+"$folder/venv/bin/python" -B "$here/pages.py" "$root" "$folder" ${chip:+"$chip"}
 rm -rf "$folder/html"
 PYTHONDONTWRITEBYTECODE=1 "$folder/venv/bin/sphinx-build" --quiet --fail-on-warning --keep-going \
   -c "$here" -d "$folder/doctrees" "$folder/source" "$folder/html"
+[ ! -d "$folder/text" ] || cp -r "$folder/text" "$folder/html/files"
 [ -z "$chip" ] || cp "$chip" "$folder/html/chip.html"
 pages=$(find "$folder/html" -name '*.html' | wc -l)
 echo "$folder/html: $pages pages, $(du -sk "$folder/html" | cut -f1) kB"

@@ -20,6 +20,7 @@ html_theme = "furo"
 html_title = f"openmb4 {release}"
 html_static_path = ["static"]
 html_css_files = ["site.css"]
+html_js_files = ["site.js"]
 html_copy_source = False
 html_use_index = False
 html_show_sphinx = False

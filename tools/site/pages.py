@@ -4,10 +4,11 @@
 
   pages.py ROOT FOLDER [CHIP_PAGE]
 
-FOLDER receives every page of ROOT that can be reached from README.md and docs/README.md, at its own
+FOLDER/source receives every page of ROOT that can be reached from README.md and docs/README.md, at its own
 path, and its pictures. README.md becomes index.md; it has the navigation, which is that of
-docs/README.md. A link to a file that is no page leads to a page with the text of this file, and a
-link to a folder to a list of its files. CHIP_PAGE is the page of tools/web/build.sh; docs/browser.md
+docs/README.md. A link to a file that is no page leads to the bare text of this file in FOLDER/text, which
+build.sh copies beside the pages: the search knows pages only. A link to a folder leads to its place on the one
+page that lists the files, files.md. CHIP_PAGE is the page of tools/web/build.sh; docs/browser.md
 then links to it. A link to nothing is an error."""
 
 import os
@@ -19,8 +20,8 @@ from pathlib import Path
 INDEX = "docs/README.md"
 HOME = "README.md"
 PICTURES = {".svg", ".png"}
-LANGUAGES = {".c": "c", ".h": "c", ".hpp": "cpp", ".cpp": "cpp", ".py": "python", ".sh": "bash",
-             ".sv": "systemverilog", ".toml": "toml", ".json": "json", ".yml": "yaml"}
+FILES = "files.md"  # the page that lists them
+TEXTS = "files"  # where the site has their texts
 LINK = re.compile(r"(?<=\]\()([^)\s#]*)(#[^)\s]*)?(?=\))")
 FENCE = re.compile(r"^ *(```+|~~~+).*?^ *\1[`~]*$", re.M | re.S)
 CODE = re.compile(r"(`+)(?!`).*?(?<!`)\1(?!`)", re.S)
@@ -31,10 +32,25 @@ CHIP_NOTE = """
 """
 
 
+def folder_anchor(path):
+    return "folder-" + re.sub(r"[^a-z0-9]+", "-", path.lower()).strip("-")
+
+
+def opening(text, at):
+    """The [ of the ] at `at`."""
+    depth = 0
+    for place in range(at, -1, -1):
+        depth += (text[place] == "]") - (text[place] == "[")
+        if depth == 0:
+            return place
+    raise SystemExit(f"no [ of a link: {text[max(0, at - 40):at + 1]}")
+
+
 class Site:
     def __init__(self, root, folder):
         self.root = root
-        self.folder = folder
+        self.folder = folder / "source"
+        self.texts = folder / "text"
         self.pages = {}  # path in the repository: text
         self.files = set()  # files and folders that pages link to
         self.pictures = set()
@@ -56,8 +72,15 @@ class Site:
         for found in LINK.finditer(text):
             if any(a <= found.start() < b for a, b in shown):
                 continue
-            parts += [text[at:found.start()], self.link(path, found[1], found[2] or "")]
-            at = found.end()
+            target = self.link(path, found[1], found[2] or "")
+            if target.endswith(".txt"):
+                # Sphinx takes no links to files of other builders: this one is HTML.
+                label = opening(text, found.start() - 2)
+                parts += [text[at:label], f'<a href="{target}">', text[label + 1:found.start() - 2], "</a>"]
+                at = found.end() + 1
+            else:
+                parts += [text[at:found.start()], target]
+                at = found.end()
         text = "".join(parts) + text[at:]
         # Sphinx knows the anchors that headings make. A page's own ones are HTML, as are their links.
         for anchor in re.findall(r'<a id="([\w-]+)"></a>', text):
@@ -77,42 +100,41 @@ class Site:
             self.pictures.add(place)
         else:
             self.files.add(place)
+            if here.is_dir():
+                return f"#{folder_anchor(place)}"
             anchor = ""
         return os.path.relpath(self.place(place), os.path.dirname(self.place(path))) + anchor
 
     def place(self, path):
-        """Where the site has a page, a picture or a file of the repository."""
+        """Where the site has a page, a picture or the text of a file of the repository."""
         if path == HOME:
             return "index.md"
-        if path in self.files:
-            is_folder = (self.root / path).is_dir()
-            return os.path.join("files", path, "index.md") if is_folder else f"files/{path}.md"
-        return path
+        return f"{TEXTS}/{path}.txt" if path in self.files else path
 
     def write(self, place, text):
         target = self.folder / place
         target.parent.mkdir(parents=True, exist_ok=True)
         target.write_text(text, encoding="utf-8")
 
-    def file_page(self, path):
-        text = (self.root / path).read_text(encoding="utf-8")
-        fence = "`" * max(3, 1 + max(map(len, re.findall("`+", text)), default=0))
-        language = LANGUAGES.get(Path(path).suffix, "text")
-        return f"---\norphan: true\n---\n\n# {Path(path).name}\n\n`{path}`\n\n" \
-               f"{fence}{language}\n{text}{fence}\n"
-
-    def folder_page(self, path):
-        rows = []
-        for child in sorted((self.root / path).iterdir()):
-            name = child.name + ("/" if child.is_dir() else "")
-            whole = f"{path}/{child.name}"
-            known = whole in self.files or whole in self.pages
-            to = os.path.relpath(self.place(whole), os.path.dirname(self.place(path)))
-            if not re.match(r"[._]", name):
-                rows.append(f"* [{name}]({to})" if known else f"* `{name}`")
-        return f"---\norphan: true\n---\n\n# {path}\n\n" \
-               "A folder of the repository. This site holds those of its files that have a link.\n\n" \
-               + "\n".join(rows) + "\n"
+    def files_page(self):
+        """The folders that pages link to, and those of the files that they link to."""
+        folders = {path for path in self.files if (self.root / path).is_dir()}
+        files = self.files - folders
+        folders |= {os.path.dirname(path) for path in files}
+        text = "---\norphan: true\nnosearch: true\n---\n\n# Files\n\n" \
+               "The folders of the repository that pages of this site name. A file that a page names is here as text.\n"
+        for folder in sorted(folders):
+            text += f"\n({folder_anchor(folder)})=\n## {folder or 'openmb4'}/\n\n"
+            for child in sorted((self.root / folder).iterdir()):
+                place = os.path.join(folder, child.name)
+                name = child.name + ("/" if child.is_dir() else "")
+                if place in files:
+                    text += f'* <a href="{self.place(place)}">{name}</a>\n'
+                elif place in folders:
+                    text += f"* [{name}](#{folder_anchor(place)})\n"
+                elif not re.match(r"[._]|build", name):
+                    text += f"* `{name}`\n"
+        return text
 
     def navigation(self):
         """[(heading of docs/README.md, [(title, page)])], in its order. A page stands below the first
@@ -164,16 +186,20 @@ class Site:
             self.pages[name] = head + CHIP_NOTE.format(target="../chip.html") + line + rest
         for page, text in self.pages.items():
             self.write(self.place(page), text + (trees if page == HOME else ""))
+        self.write(FILES, self.files_page())
         for path in self.files:
-            is_folder = (self.root / path).is_dir()
-            self.write(self.place(path), (self.folder_page if is_folder else self.file_page)(path))
+            if (self.root / path).is_file():
+                target = self.texts / f"{path}.txt"
+                target.parent.mkdir(parents=True, exist_ok=True)
+                shutil.copyfile(self.root / path, target)
         for path in self.pictures:
             (self.folder / path).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(self.root / path, self.folder / path)
 
 
 def main(root, folder, chip_page=None):
-    shutil.rmtree(folder, ignore_errors=True)
+    for part in ("source", "text"):
+        shutil.rmtree(Path(folder, part), ignore_errors=True)
     Site(Path(root).resolve(), Path(folder)).make(chip_page)
 
 

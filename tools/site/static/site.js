@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The openmb4 authors
  * SPDX-License-Identifier: Apache-2.0
  *
- * A button to copy each block of code. Of a terminal's text, "$ command" and its output, it copies the
+ * A link from each picture to itself alone, and a button to copy each block of code. Of a terminal's text, "$ command" and its output, it copies the
  * commands. */
 "use strict";
 
@@ -24,6 +24,14 @@ async function copy(text) {
 }
 
 document.addEventListener("DOMContentLoaded", () => {
+  for (const picture of document.querySelectorAll("article img")) {
+    if (picture.closest("a") !== null) continue;
+    const link = document.createElement("a");
+    link.href = picture.src;
+    link.title = "This picture alone, in its full size";
+    picture.replaceWith(link);
+    link.append(picture);
+  }
   for (const block of document.querySelectorAll("div.highlight")) {
     const button = document.createElement("button");
     button.className = "copy";
