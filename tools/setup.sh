@@ -24,7 +24,7 @@ test_packages=(
   python3-pandas python3-pytest python3-tqdm python3-yaml
 )
 python_packages=(
-  cmake g++ libfmt-dev libtomlplusplus-dev ninja-build python3 python3-pip python3-venv verilator zlib1g-dev
+  cmake g++ libcli11-dev libfmt-dev libtomlplusplus-dev ninja-build python3 python3-pip python3-venv verilator zlib1g-dev
 )
 
 web_packages=(

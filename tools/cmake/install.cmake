@@ -32,6 +32,14 @@ install(TARGETS mb4sim_spidev DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT tool
 install(FILES ${MB4_ROOT}/sim/include/mb4sim.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT dev)
 install(DIRECTORY ${MB4_ROOT}/drivers/include/ DESTINATION ${headers} COMPONENT driver)
 
+# The licences of what programs and libraries hold besides, from Debian's packages.
+foreach(name gcc-12-base libcli11-dev libfmt-dev libtomlplusplus-dev verilator)
+  if(EXISTS /usr/share/doc/${name}/copyright)
+    install(FILES /usr/share/doc/${name}/copyright
+      DESTINATION ${CMAKE_INSTALL_DOCDIR}/licences RENAME ${name} COMPONENT tool)
+  endif()
+endforeach()
+
 # Each register map: headers, package, manual.
 get_property(maps GLOBAL PROPERTY MB4_REGISTER_MAPS)
 foreach(map ${maps})

@@ -13,6 +13,7 @@ from .codes import (ClockSource, Code, Flags, FrameStart, LineInterface, Protoco
                     SpiCheck)
 from .config import Config, SlaveConfig, frame_period_clk_at_least, ma_hz_at_most
 from .driver import Driver
+from .paths import examples, files
 from .reading import Identity, Reading
 from .record import Edges
 from .registers import Field, Register, Registers
@@ -22,5 +23,5 @@ from .table import to_pandas
 __version__ = version()
 __all__ = ["ClockSource", "Code", "Config", "Driver", "Edges", "Error", "Field", "Flags", "Frame",
            "FrameStart", "Hint", "Identity", "LineInterface", "Protocol", "Reading", "Register",
-           "Registers", "Simulator", "SimulatorCode", "SlaveConfig", "SpiCheck", "frame_period_clk_at_least",
-           "ma_hz_at_most", "sweep", "to_pandas", "version"]
+           "Registers", "Simulator", "SimulatorCode", "SlaveConfig", "SpiCheck", "examples",
+           "files", "frame_period_clk_at_least", "ma_hz_at_most", "sweep", "to_pandas", "version"]
