@@ -4,8 +4,9 @@
 """The Debian packages: together they hold what `cmake --install` installs, they install into a clean
 root, the command runs there, and their removal leaves nothing.
 
-  deb_test.py BUILD CMAKE     exit status 77: no dpkg-shlibdeps, or not root
+  deb_test.py BUILD CMAKE [TEST...]     exit status 77: no dpkg-shlibdeps, or not root
 
+MB4_DEBS=FOLDER names packages that are there already, such as deb/ of a release; else the build makes them.
 MB4_CLEAN_ROOT=FOLDER names a Debian made by `debootstrap --variant=minbase`: then apt installs the
 packages there with what they depend on. Without it dpkg installs them into an empty folder, without
 what they depend on, and the command runs on this machine's libraries."""
@@ -15,13 +16,15 @@ import re
 import shutil
 import sys
 import tempfile
+import time
 import unittest
 from pathlib import Path
 
-from programs import call
+from programs import call, clean_root, inside
 
 BUILD, CMAKE = Path(sys.argv[1]).resolve(), sys.argv[2]
 NAMES = {"openmb4", "libmb4sim0", "libmb4sim-dev", "openmb4-driver-dev", "openmb4-rtl"}
+MOST_SECONDS = 10  # from the installed packages to positions on the screen
 SCENARIO = "usr/share/openmb4/examples/resolute-26.toml"
 
 
@@ -36,10 +39,14 @@ class Packages(unittest.TestCase):
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
         cls.work = Path(cls.folder.name)
-        call(Path(CMAKE).parent / "cpack", "-G", "DEB", "--config", BUILD / "CPackConfig.cmake",
-            "-B", cls.work, cwd=BUILD)
+        place = cls.work
+        if os.environ.get("MB4_DEBS"):
+            place = Path(os.environ["MB4_DEBS"])
+        else:
+            call(Path(CMAKE).parent / "cpack", "-G", "DEB", "--config", BUILD / "CPackConfig.cmake",
+                 "-B", cls.work, cwd=BUILD)
         cls.debs = {call("dpkg-deb", "-f", deb, "Package").strip(): deb
-                    for deb in cls.work.glob("*.deb")}
+                    for deb in place.glob("*.deb")}
 
     @classmethod
     def tearDownClass(cls):
@@ -74,7 +81,9 @@ class Packages(unittest.TestCase):
         install()
         try:
             self.assertTrue((root / SCENARIO).exists())
+            begin = time.monotonic()
             self.assertIn("frames good 3, bad 0", program("run", SCENARIO, "--frames", "3"))
+            self.assertLess(time.monotonic() - begin, MOST_SECONDS)
         finally:
             remove()
         self.assertEqual(files_of(root / "usr"), before)
@@ -90,27 +99,27 @@ class Packages(unittest.TestCase):
                       lambda: call(*dpkg, "--purge", *NAMES),
                       lambda *arguments: call(root / "usr/bin/mb4sim", *arguments, cwd=root))
 
-    @unittest.skipUnless(os.environ.get("MB4_CLEAN_ROOT"), "MB4_CLEAN_ROOT names no folder")
+    @unittest.skipUnless(clean_root(), "MB4_CLEAN_ROOT names no folder")
     def test_installed_and_removed_in_a_clean_debian(self):
-        root = Path(os.environ["MB4_CLEAN_ROOT"]).resolve()
+        root = clean_root()
         place = root / "var/openmb4"
         shutil.rmtree(place, ignore_errors=True)
         place.mkdir(parents=True)
         for deb in self.debs.values():
             shutil.copy(deb, place)
-        inside = ("chroot", root, "env", "DEBIAN_FRONTEND=noninteractive", "PATH=/usr/sbin:/usr/bin")
+        there = inside(root)
         # The libraries that they need stay; so they come first.
         needed = set(re.findall(r"\b(libc6|libfmt\d+|libgcc-s1|libstdc\+\+6|zlib1g)\b", " ".join(
             call("dpkg-deb", "-f", deb, "Depends") for deb in self.debs.values())))
-        call(*inside, "apt-get", "install", "-y", "-q", *needed)
-        self.try_root(root, lambda: call(*inside, "apt-get", "install", "-y", "-q", *(
+        call(*there, "apt-get", "install", "-y", "-q", *needed)
+        self.try_root(root, lambda: call(*there, "apt-get", "install", "-y", "-q", *(
                           f"/var/openmb4/{Path(deb).name}" for deb in self.debs.values())),
-                      lambda: call(*inside, "apt-get", "purge", "-y", "-q", *NAMES),
-                      lambda *arguments: call(*inside, "mb4sim", *arguments))
+                      lambda: call(*there, "apt-get", "purge", "-y", "-q", *NAMES),
+                      lambda *arguments: call(*there, "mb4sim", *arguments))
 
 
 if __name__ == "__main__":
     if shutil.which("dpkg-shlibdeps") is None or os.geteuid() != 0:
         print("skipped: needs dpkg-shlibdeps (package dpkg-dev), and root to install")
         sys.exit(77)
-    unittest.main(argv=sys.argv[:1])
+    unittest.main(argv=sys.argv[:1] + sys.argv[3:])

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Programs that a test of a package runs."""
 
+import os
 import re
 import subprocess
 from pathlib import Path
@@ -18,6 +19,18 @@ def call(*command, **options):
         raise AssertionError(f"{' '.join(words)}: exit status {done.returncode}\n"
                              f"{done.stdout}{done.stderr}")
     return done.stdout
+
+
+def clean_root():
+    """The folder of MB4_CLEAN_ROOT, a Debian made by `debootstrap --variant=minbase`; None: not named."""
+    named = os.environ.get("MB4_CLEAN_ROOT")
+    return Path(named).resolve() if named else None
+
+
+def inside(root):
+    """The words before a command that runs in this Debian."""
+    return ("chroot", str(root), "/usr/bin/env", "-i", "DEBIAN_FRONTEND=noninteractive",
+            "PATH=/usr/sbin:/usr/bin:/sbin:/bin")
 
 
 def version():

@@ -3,6 +3,7 @@
 """The release archive: the committed files and plain Verilog of the tops, no others; the same bytes
 each time."""
 import hashlib
+import os
 import re
 import shutil
 import subprocess
@@ -34,7 +35,10 @@ def check_sdist(folder, version):
         tar.extractall(folder)
     top = folder / f"openmb4-{version}"
     settings = tomllib.loads((top / "pyproject.toml").read_text())["tool"]["scikit-build"]
-    assert (top / settings["wheel"]["packages"][0] / "__init__.py").exists(), settings
+    for package in settings["wheel"]["packages"]:
+        assert (top / package / "__init__.py").exists(), settings
+    project = tomllib.loads((top / "pyproject.toml").read_text())["project"]
+    assert (top / project["readme"]).exists() and project["scripts"]["mb4sim"], project
     assert (top / settings["metadata"]["version"]["input"]).exists(), settings
     assert (top / "PKG-INFO").exists()
     done = subprocess.run(["cmake", "-S", top / settings["cmake"]["source-dir"], "-B", folder / "pip",
@@ -44,6 +48,33 @@ def check_sdist(folder, version):
     done = subprocess.run(["ninja", "-n", *settings["build"]["targets"]], cwd=folder / "pip",
                           capture_output=True, text=True, timeout=100, check=False)
     assert done.returncode == 0 and str(ROOT) not in done.stdout, done.stdout[-500:]
+
+
+def without_compilers(folder):
+    """An environment in which nothing can be compiled: the programs on its path are links to those that
+    tools/release.sh and the scripts below it need for the archives."""
+    path = folder / "path"
+    path.mkdir()
+    for name in ("bash", "berkeley-abc", "cat", "cp", "dirname", "env", "find", "git", "gzip", "mkdir", "mktemp", "mv",
+                 "python3", "rm", "sed", "sha256sum", "sh", "sort", "tail", "tar", "tee", "xargs", "yosys",
+                 "yosys-abc"):
+        if found := shutil.which(name):
+            (path / name).symlink_to(found)
+    return {**os.environ, "PATH": str(path)}
+
+
+def check_all(out, said):
+    """What --all has made where nothing can be compiled, and what it says of the rest."""
+    for what in ("the wheel: cmake", "the packages: cmake", "the page for a browser: emcmake"):
+        assert f"release: skipped {what} is missing" in said, said
+    assert (out / "Containerfile").read_bytes() == (ROOT / "tools" / "Containerfile").read_bytes()
+    sums = dict(reversed(line.split(maxsplit=1))
+                for line in (out / "SHA256SUMS").read_text().splitlines())
+    assert {name.rstrip(".0123456789").split("-")[0] for name in sums} >= {"Containerfile", "openmb4"}, sums
+    for name, checksum in sums.items():
+        assert hashlib.sha256((out / name).read_bytes()).hexdigest() == checksum, name
+    files = {str(file.relative_to(out)) for file in out.rglob("*") if file.is_file()}
+    assert set(sums) == {name for name in files if not name.endswith((".sha256", "SHA256SUMS"))}, files
 
 
 def main():
@@ -63,15 +94,16 @@ def main():
             script.write_bytes((ROOT / "tools" / "release.sh").read_bytes())
             script.chmod(0o755)
         sums = []
-        for name in ("a", "b"):
+        for name, options in (("a", []), ("b", ["--all"])):
             out = Path(folder) / name
-            done = subprocess.run([script, out], capture_output=True, text=True, timeout=300,
-                                  check=True)
+            done = subprocess.run([script, *options, out], capture_output=True, text=True, timeout=300,
+                                  check=True, env=without_compilers(Path(folder)) if options else None)
             archive = Path(done.stdout.strip())
             assert archive == out / f"openmb4-{version}.tar.gz", archive
             sums.append(hashlib.sha256(archive.read_bytes()).hexdigest())
             assert (out / (archive.name + ".sha256")).read_text().split() == [sums[-1], archive.name]
         assert sums[0] == sums[1], "two archives of one commit differ"
+        check_all(out, done.stderr)
         tracked = set(git("ls-files", cwd=clone).splitlines())
         with tarfile.open(archive) as tar:
             packed = {member.name for member in tar.getmembers() if not member.isdir()}
@@ -97,4 +129,5 @@ def main():
     print(f"{len(tracked)} files")
 
 
-main()
+if __name__ == "__main__":
+    main()
