@@ -26,8 +26,7 @@ POSITION = 11203451  # README: the table under tools/demo.sh
 MOST_SECONDS = 10  # from the installed wheel to a position on the screen
 OLDEST = 34  # minor version of the C library that the docs promise
 LICENCES = {"gcc-12-base", "libcli11-dev", "libfmt-dev", "libtomlplusplus-dev", "verilator"}
-LIBRARIES = {"libc.so.6", "libm.so.6", "libz.so.1", "ld-linux-x86-64.so.2", "libdl.so.2",
-             "libpthread.so.0"}
+LIBRARIES = {"libc.so.6", "libm.so.6", "libz.so.1", "ld-linux-x86-64.so.2", "libgcc_s.so.1"}
 # An example of each master, and what its run says.
 EXAMPLES = {"resolute-26": str(POSITION), "axi/one-encoder": "frames good", "clb/reference-frame": "frames good",
             "pru/encoder": "frames good", "dsl/motor": "frames good"}
