@@ -29,7 +29,7 @@ def clean_root():
 
 def inside(root):
     """The words before a command that runs in this Debian."""
-    return ("chroot", str(root), "/usr/bin/env", "-i", "DEBIAN_FRONTEND=noninteractive",
+    return ("chroot", str(root), "/usr/bin/env", "DEBIAN_FRONTEND=noninteractive",
             "PATH=/usr/sbin:/usr/bin:/sbin:/bin")
 
 

@@ -96,7 +96,7 @@ def main():
         sums = []
         for name, options in (("a", []), ("b", ["--all"])):
             out = Path(folder) / name
-            done = subprocess.run([script, *options, out], capture_output=True, text=True, timeout=300,
+            done = subprocess.run([script, *options, out], capture_output=True, text=True, timeout=700,
                                   check=True, env=without_compilers(Path(folder)) if options else None)
             archive = Path(done.stdout.strip())
             assert archive == out / f"openmb4-{version}.tar.gz", archive
