@@ -112,7 +112,7 @@ def test_other_masters_name_their_own_pins():
         with pytest.raises(openmb4.Error, match="no pin 'MA1'; did you mean ma1"):
             chip.pin("MA1")
         assert "axi, slave 1 biss-c" in repr(chip)
-    with openmb4.Simulator(EXAMPLES / "dsl" / "motor.toml") as chip:
+    with openmb4.Simulator(EXAMPLES / "dsl" / "model.toml") as chip:
         with pytest.raises(openmb4.Error, match="this master has no pins"):
             chip.pin("MA1")
 
