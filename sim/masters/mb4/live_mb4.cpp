@@ -112,6 +112,7 @@ void LiveMb4::set_pin(Time now, Pin pin, bool level) {
     if (levels_[index_of(pin)] == level) return;
   } else {
     if (!can_set(pin)) return;
+    if (pin == Pin::kClk) clk_by_hand_ = true;
     if (pin == Pin::kNer) {
       ner_pulled_ = !level;
       drive(now, pin, this->pin(pin));
@@ -141,7 +142,9 @@ void LiveMb4::own_outputs_changed(Time now, MasterModel::Outputs changed) {
 std::vector<Hint> LiveMb4::hints(std::span<const HintLine> lines, std::uint64_t missed) {
   std::vector<Hint> found = host_hints(setup_.opcodes(), host_check_);
   if (setup_.setup() == nullptr) return found;
-  for (Hint& hint : setup_hints(*setup_.setup(), config_, true, lines, missed)) {
+  const SetupClock clock{clk_by_hand_ ? std::nullopt : std::optional(config_.f_clk_hz),
+                         config_.f_osc_hz};
+  for (Hint& hint : setup_hints(*setup_.setup(), config_.features, clock, lines, missed)) {
     found.push_back(std::move(hint));
   }
   return found;

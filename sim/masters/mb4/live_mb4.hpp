@@ -70,6 +70,7 @@ class LiveMb4 final : public LiveMaster {
   std::unique_ptr<ChipModel> chip_;
   WatchedChip* watched_ = nullptr;  // chip_ while start_trace() writes a waveform
   PinObserver* observer_ = nullptr;
+  bool clk_by_hand_ = false;       // pin CLK, which is not connected
   bool ner_pulled_ = false;        // by something outside
   std::array<bool, 32> levels_{};  // of input pins but SL, index is Pin
 };

@@ -92,6 +92,19 @@ class Hints(CliTest):
             stderr = self.run_setup(setup).stderr
             self.assertRegex(stderr, f"^mb4sim: hint .features.: {expected}.*\n$" if expected else "^$")
 
+    def test_a_smaller_chip_ignores_what_it_has_no_registers_for(self):
+        setup = hint_cases.Setup("ENSCD2 of one data channel", '[chip]\nfeatures = "single"\n' +
+                                 hint_cases.scenario_text("resolute-26"), ["02 C4 5B 06"])
+        result = self.run_setup(setup)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+
+    def test_a_clock_by_hand_is_a_clock(self):
+        scenario = self.path("scenario.toml", hint_cases.scenario_text("no-clk"))
+        ask = "02 C0 5B 06\n02 E5 C0 A0 00 7C\n02 EC 00 0D\n07 04\n"
+        by_hand = "pin CLK 1\n+50\npin CLK 0\n+50\n"
+        self.assertIn("hint (clock)", run("spi", scenario, text=ask).stderr)
+        self.assertEqual(run("spi", scenario, text=by_hand + ask + 20 * by_hand).stderr, "")
+
     def test_spi_tells_a_hint_once_and_in_time(self):
         setup = next(hint_cases.listed())
         scenario = self.path("scenario.toml", setup.scenario)

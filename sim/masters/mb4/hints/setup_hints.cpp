@@ -139,12 +139,16 @@ std::string_view preset_for(const WordSetup& word, std::string_view protocol) {
 // One line of the scenario and what the chip has for it.
 class LineHints {
  public:
-  LineHints(const WrittenSetup& setup, const HintLine& line, bool ssi, Time period,
-            std::uint64_t missed)
+  // `period`: of MA; 0: unknown.
+  LineHints(const WrittenSetup& setup, std::uint32_t features, const HintLine& line, bool ssi,
+            Time period, std::uint64_t missed)
       : line_(line), ssi_(ssi), period_(period), missed_(missed) {
     const bool split = (setup[reg::kAddrSlaveloc5] & reg::SLAVELOC5::kMask) != 0;
     first_ = line.channel == 1 ? 1 : kSecondLine;
     last_ = split && line.channel == 1 ? kSecondLine - 1 : kWords;
+    // A smaller chip has fewer data channels, and ignores what is written to the others.
+    const unsigned most = features == 0 ? kWords : page::SLAVES::get(features);
+    last_ = std::min(last_, first_ + most - 1);
     for (unsigned x = 1; x <= kWords; ++x) all_[x - 1] = word_of(setup, x);
     for (const HintDevice& device : line.devices) {
       if (device.sends) sending_.push_back(&device);
@@ -201,6 +205,7 @@ class LineHints {
   // The encoder's timeout runs out between two edges of MA. A recording has none: it is alone on
   // a line with a start bit.
   std::optional<Hint> too_slow() const {
+    if (period_ == 0) return std::nullopt;
     const Time longest = ssi_ ? period_ : period_ / 2;
     for (const HintDevice& device : line_.devices) {
       const DeviceTraits traits = device.config->traits();
@@ -217,7 +222,7 @@ class LineHints {
 
   // SSI has no start bit from which the chip could measure the delay.
   std::optional<Hint> too_late() const {
-    if (!ssi_ || line_.devices.empty()) return std::nullopt;
+    if (!ssi_ || period_ == 0 || line_.devices.empty()) return std::nullopt;
     const Time late = line_.round_trip + line_.devices.front().config->traits().response;
     if (late < period_) return std::nullopt;
     return Hint{"delay", "channel " + text_of(line_.channel),
@@ -357,9 +362,9 @@ Hint unused_line(const WrittenSetup& setup, const HintLine& line) {
 }
 
 // What the line needs and a smaller chip lacks; empty: nothing.
-std::string lacks(const ChipConfig& chip, unsigned line, unsigned protocol) {
-  if (chip.features == 0) return "";  // the full chip
-  const auto has = [&](std::uint32_t mask) { return (chip.features & mask) != 0; };
+std::string lacks(std::uint32_t features, unsigned line, unsigned protocol) {
+  if (features == 0) return "";  // the full chip
+  const auto has = [&](std::uint32_t mask) { return (features & mask) != 0; };
   if (line == 2 && !has(page::TWO_LINES::kMask)) return "a second line";
   if (protocol == kSsi && !has(page::SSI::kMask)) return "SSI";
   if (protocol == kBissB && !has(page::BISS_B::kMask)) return "BiSS B";
@@ -378,16 +383,19 @@ bool is_opcode(std::uint8_t byte) {
 
 }  // namespace
 
-std::vector<Hint> setup_hints(const WrittenSetup& setup, const ChipConfig& chip, bool clock_choice,
-                              std::span<const HintLine> lines, std::uint64_t missed) {
-  const bool oscillator = clock_choice && (setup[reg::kAddrIface] & reg::CLKENI::kMask) != 0;
-  const std::uint64_t clk_hz = oscillator ? chip.f_osc_hz : chip.f_clk_hz;
-  if (clk_hz == 0) {
+std::vector<Hint> setup_hints(const WrittenSetup& setup, std::uint32_t features,
+                              const SetupClock& clock, std::span<const HintLine> lines,
+                              std::uint64_t missed) {
+  const bool oscillator =
+      clock.oscillator_hz != 0 && (setup[reg::kAddrIface] & reg::CLKENI::kMask) != 0;
+  const std::optional<std::uint64_t> clk_hz =
+      oscillator ? std::optional(clock.oscillator_hz) : clock.pin_hz;
+  if (clk_hz == std::uint64_t{0}) {
     return {{"clock", "chip",
              "the chip has no clock: pin CLK is not connected (f_clk_hz = 0) and CLKENI = 0"}};
   }
   const unsigned freqs = setup[reg::kAddrFreq] & reg::FREQS::kMask;
-  const Time period = 2 * half_ma_clocks(freqs) * kPsPerSecond / clk_hz;
+  const Time period = clk_hz ? 2 * half_ma_clocks(freqs) * kPsPerSecond / *clk_hz : 0;
   std::vector<Hint> hints;
   std::vector<const HintLine*> unused;
   std::optional<Hint> no_words;
@@ -408,14 +416,14 @@ std::vector<Hint> setup_hints(const WrittenSetup& setup, const ChipConfig& chip,
                            std::string(kTitles[code]) + ": " + cfgch(setup, line.channel)});
       continue;
     }
-    if (const std::string what = lacks(chip, line.channel, code); !what.empty()) {
+    if (const std::string what = lacks(features, line.channel, code); !what.empty()) {
       const std::string channel = "channel " + text_of(line.channel);
       hints.push_back(
           {"features", channel,
            channel + " needs " + what + ", which this chip does not have: [chip] features"});
       continue;
     }
-    const LineHints one(setup, line, code == kSsi, period, missed);
+    const LineHints one(setup, features, line, code == kSsi, period, missed);
     any_words = any_words || one.takes_words();
     if (!one.takes_words()) {
       if (line.devices.empty()) continue;

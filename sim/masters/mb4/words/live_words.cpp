@@ -46,8 +46,9 @@ std::optional<std::uint8_t> LiveWords::Host::write(std::uint32_t address, std::u
 // A bus of words has no SPI, and its clock is there.
 std::vector<Hint> LiveWords::hints(std::span<const HintLine> lines, std::uint64_t missed) {
   const WrittenSetup* const setup = host_.setup.setup();
-  return setup == nullptr ? std::vector<Hint>{}
-                          : setup_hints(*setup, config_, false, lines, missed);
+  return setup == nullptr
+             ? std::vector<Hint>{}
+             : setup_hints(*setup, config_.features, {config_.f_clk_hz, 0}, lines, missed);
 }
 
 void LiveWords::power_on() {
