@@ -6,6 +6,11 @@
 #ifndef MB4_ACQUISITION_HPP_
 #define MB4_ACQUISITION_HPP_
 
+#include "enc/cpp17.hpp"
+#if __cplusplus >= 201703L
+
 #include "mb4/device.hpp"
+
+#endif  // C++17
 
 #endif  // MB4_ACQUISITION_HPP_

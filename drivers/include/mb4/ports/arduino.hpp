@@ -7,6 +7,9 @@
 #ifndef MB4_PORTS_ARDUINO_HPP_
 #define MB4_PORTS_ARDUINO_HPP_
 
+#include "enc/cpp17.hpp"
+#if __cplusplus >= 201703L
+
 #include <cstddef>
 #include <cstdint>
 
@@ -71,5 +74,7 @@ class MicrosClock {
 };
 
 }  // namespace mb4::ports
+
+#endif  // C++17
 
 #endif  // MB4_PORTS_ARDUINO_HPP_

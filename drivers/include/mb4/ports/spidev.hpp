@@ -6,6 +6,9 @@
 #ifndef MB4_PORTS_SPIDEV_HPP_
 #define MB4_PORTS_SPIDEV_HPP_
 
+#include "enc/cpp17.hpp"
+#if __cplusplus >= 201703L
+
 #include <fcntl.h>
 #include <linux/spi/spidev.h>
 #include <sys/ioctl.h>
@@ -67,5 +70,7 @@ struct MonotonicClock {
 };
 
 }  // namespace mb4::ports
+
+#endif  // C++17
 
 #endif  // MB4_PORTS_SPIDEV_HPP_

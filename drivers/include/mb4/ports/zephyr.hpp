@@ -6,6 +6,9 @@
 #ifndef MB4_PORTS_ZEPHYR_HPP_
 #define MB4_PORTS_ZEPHYR_HPP_
 
+#include "enc/cpp17.hpp"
+#if __cplusplus >= 201703L
+
 #include <zephyr/drivers/spi.h>
 #include <zephyr/kernel.h>
 
@@ -61,5 +64,7 @@ class ZephyrClock {
 };
 
 }  // namespace mb4::ports
+
+#endif  // C++17
 
 #endif  // MB4_PORTS_ZEPHYR_HPP_

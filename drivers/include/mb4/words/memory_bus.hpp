@@ -7,6 +7,9 @@
 #ifndef MB4_WORDS_MEMORY_BUS_HPP_
 #define MB4_WORDS_MEMORY_BUS_HPP_
 
+#include "enc/cpp17.hpp"
+#if __cplusplus >= 201703L
+
 #include <cstddef>
 #include <cstdint>
 
@@ -108,5 +111,7 @@ class MemoryBus {
 };
 
 }  // namespace mb4
+
+#endif  // C++17
 
 #endif  // MB4_WORDS_MEMORY_BUS_HPP_

@@ -7,6 +7,9 @@
 #ifndef MB4_WORDS_SNAPSHOTS_HPP_
 #define MB4_WORDS_SNAPSHOTS_HPP_
 
+#include "enc/cpp17.hpp"
+#if __cplusplus >= 201703L
+
 #include <array>
 #include <cstdint>
 
@@ -115,5 +118,7 @@ class Snapshots {
 };
 
 }  // namespace mb4
+
+#endif  // C++17
 
 #endif  // MB4_WORDS_SNAPSHOTS_HPP_
