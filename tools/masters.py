@@ -73,8 +73,10 @@ class Entry:
     def pairs(self, key, first):
         """{name: [first, number]}"""
         values = self.take(key, dict, {})
+        second = (int, float) if first is str else int
         for name, value in values.items():
-            if not isinstance(value, list) or len(value) != 2 or not isinstance(value[0], first) or not isinstance(value[1], int):
+            if not isinstance(value, list) or [isinstance(one, kind) for one, kind in zip(value, (first, second))] != [True] * 2 \
+                    or len(value) != 2:
                 self.wrong(f"{key}.{name}", f"is not [{'port' if first is str else 'number'}, number]")
         return {name: tuple(value) for name, value in values.items()}
 

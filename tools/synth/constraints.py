@@ -127,6 +127,9 @@ class Netlist:
                 for bit in pins["Q"]:
                     sources[bit] = (names[bit], clock)
                 sinks.append((names[pins["Q"][0]], clock, pins["D"] + pins.get("EN", []) + pins.get("ARST", [])))
+            elif cell["type"].startswith("$mem") and not pins["WR_CLK"]:
+                for bit in pins["RD_DATA"]:   # a read-only memory is logic
+                    drivers[bit] = (pins["RD_ADDR"], None)
             elif cell["type"].startswith("$mem"):
                 clock = domain[pins["WR_CLK"][0]]
                 self.registers.add(name)
@@ -301,7 +304,7 @@ def text(tool, top, preset, lines):
     features = f"the preset {preset}" if top in TOPS else "any parameters"
     out = [HEAD.format(tool=tool, top=top, features=features)]
     for kind, (port, period) in CLOCKS[top].items():
-        out += [f"set {kind}_period {period}.0",
+        out += [f"set {kind}_period {float(period)}",
                 f"create_clock -name {kind} -period ${kind}_period [get_ports {port}]"]
     if top == "mb4_core":
         out.append(spi(tool).rstrip("\n"))

@@ -4,7 +4,7 @@
 
 import json
 import re
-from typing import Any, Dict, List, Protocol, Union
+from typing import Any, Dict, List, Optional, Protocol, Union
 
 from ._library import HERE, Error, NameMistake, similar
 from ._opened import Opened
@@ -67,6 +67,23 @@ class AxiBus:
     def write(self, address: int, value: int) -> None:
         """Writes the register at an address."""
         self.simulator.axi_write(address, value)
+
+
+class DslBus:
+    """The byte map of the DSL master, whose bus has words."""
+
+    bits = 8
+
+    def __init__(self, simulator: Opened):
+        self.simulator = simulator
+
+    def read(self, address: int) -> int:
+        """The register at an address."""
+        return self.simulator.mem_read(address, 1)[0]
+
+    def write(self, address: int, value: int) -> None:
+        """Writes the register at an address, and no other byte of its word."""
+        self.simulator.mem_write(address, bytes((value,)))
 
 
 def _addresses(master: str) -> Dict[str, int]:
@@ -166,7 +183,7 @@ class Registers:
     Where field and register have one name it is the field; `regs.REGADR.register` is the register.
     """
 
-    def __init__(self, bus: Bus, master: str):
+    def __init__(self, bus: Bus, master: str, more: Optional["Registers"] = None):
         self._master = master
         registers = {name: Register(bus, name, address)
                      for name, address in _addresses(master).items()}
@@ -179,7 +196,7 @@ class Registers:
                 name = field["ident"] if name == "CHSEL" else name
                 fields.setdefault(name, []).append(field)
         self._names: Dict[str, Union[Register, Field]] = {
-            **registers, **{name: Field(bus, name, parts, by_address)
+            **(more._names if more is not None else {}), **registers, **{name: Field(bus, name, parts, by_address)
                             for name, parts in fields.items()}}
 
     def __getitem__(self, name: str) -> Any:

@@ -16,7 +16,7 @@ from ._opened import ERROR_BYTES, Opened, Scenario, Text, document
 from .codes import SimulatorCode
 from .driver import Driver
 from .record import Edges
-from .registers import AxiBus, ChipBus, Registers
+from .registers import AxiBus, ChipBus, DslBus, Registers
 
 # Names that masters have for pins, to tell those of this one: sim/README.md.
 _PINS = ("NCS", "SCLK", "MOSI", "MISO", "ALE", "NRD_RNW", "NWR_E", *(f"DB{i}" for i in range(8)),
@@ -61,7 +61,8 @@ class Simulator(Opened):
     mistake.
 
     driver                                 calls of the driver on this chip: Driver
-    regs, axi_regs, clb_regs, pru_regs     registers by name, of the iC-MB4 and its siblings: Registers
+    regs, axi_regs, clb_regs, pru_regs,    registers by name, of the iC-MB4 and its siblings:
+    dsl_regs                               Registers
 
     A process may hold any number of simulators, and each may be used from any thread: calls on one
     simulator wait for each other, calls on several run at the same time. A callback of on_frame()
@@ -76,6 +77,7 @@ class Simulator(Opened):
         self.axi_regs = Registers(AxiBus(self), "axi")
         self.clb_regs = Registers(AxiBus(self), "clb")
         self.pru_regs = Registers(AxiBus(self), "pru")
+        self.dsl_regs = Registers(DslBus(self), "dsl", Registers(AxiBus(self), "dsl_page"))
 
     @classmethod
     def from_file(cls, path: "Union[str, os.PathLike[str]]") -> "Simulator":
