@@ -25,7 +25,8 @@ UNITS = ("clock", "frame", "byte")
 # Workload: simulated ms of the shorter and the longer run, the units that are counted.
 WORKLOADS = {"A": (1, 3, ("clock",)), "B": (2, 6, ("clock",)), "C": (2, 22, ("frame",)),
              "D": (1, 3, ("byte",)), "E": (1, 3, ("frame", "byte")), "F": (5, 25, ("frame",)),
-             "G": (1, 2, ("frame",)), "H": (1, 3, ("clock",)), "I": (1, 3, ("clock",))}
+             "G": (1, 2, ("frame",)), "H": (1, 3, ("clock",)), "I": (1, 3, ("clock",)),
+             "J": (1, 3, ("clock",))}
 RUN_FRAMES = (10, 60)  # of `mb4sim run`
 
 

@@ -8,6 +8,9 @@
 #if MB4SIM_WITH_AXI
 #include "masters/axi/axi_workload.hpp"
 #endif
+#if MB4SIM_WITH_DSL
+#include "masters/dsl/dsl_workload.hpp"
+#endif
 
 namespace mb4::tool {
 
@@ -21,6 +24,9 @@ std::span<const WorkloadInfo> workloads() {
     add(mb4_workloads());
 #if MB4SIM_WITH_AXI
     add(axi_workloads());
+#endif
+#if MB4SIM_WITH_DSL
+    add(dsl_workloads());
 #endif
     return found;
   }();

@@ -52,6 +52,7 @@ struct WorkloadInfo {
 // E, F and G replay recorded SPI bytes without the driver; SCLK is 10 MHz.
 // A to G: the iC-MB4 (masters/mb4/mb4_workload.hpp) with f_CLK = 20 MHz.
 // H, I: biss_axi with 1 and with 4 encoders (masters/axi/axi_workload.hpp), 100 MHz.
+// J: dsl_axil with an encoder (masters/dsl/dsl_workload.hpp), 75 MHz.
 std::span<const WorkloadInfo> workloads();
 
 }  // namespace mb4::tool

@@ -280,7 +280,7 @@ class Cli(CliTest):
         self.assertEqual(result.returncode, 0, result.stderr)
         report = json.loads(result.stdout)
         rates = {rate["workload"]: rate for rate in report["rates"]}
-        self.assertEqual(list(rates), list("ABCDEFGHI"))
+        self.assertEqual(list(rates), list("ABCDEFGHIJ"))
         for rate in rates.values():
             self.assertGreater(rate["clk_per_s"], 10_000)
             self.assertLessEqual(rate["slowest"], rate["clk_per_s"])
@@ -296,6 +296,8 @@ class Cli(CliTest):
         for letter, encoders in (("H", 1), ("I", 4)):
             clocks = rates[letter]["clocks"] / rates[letter]["frames"] * encoders
             self.assertAlmostEqual(clocks, 450, delta=60)
+        # J: 108 bits of eight clocks.
+        self.assertAlmostEqual(rates["J"]["clocks"] / rates["J"]["frames"], 864, delta=20)
         self.assertEqual(rates["D"]["frames"], 0)
         self.assertGreater(rates["D"]["spi_bytes"] * 0.8, 0.9 * (time_us["D"] - 200))
         self.assertGreater(len(report["compiler"]), 3)
