@@ -128,14 +128,15 @@ Capture parse_sr(std::string_view bytes, const std::string& name, const CaptureN
   };
   const double rate = frequency(data.values["samplerate"]);
   if (rate == 0) fail("samplerate", "expected a rate such as samplerate=200 MHz");
-  const auto unit = parse_word(data.values["unitsize"]);
-  if (!unit || *unit == 0 || *unit > 8) fail("unitsize", "expected unitsize=1 to 8");
+  const auto unit_size = parse_word(data.values["unitsize"]);
+  if (!unit_size || *unit_size == 0 || *unit_size > 8) fail("unitsize", "expected unitsize=1 to 8");
+  const auto unit = static_cast<std::size_t>(*unit_size);
 
   // Probe n is bit n - 1 of a sample, whose low byte is first.
   std::vector<std::string> names;
   const auto bit_of = [&](const std::string& wanted) -> unsigned {
     names.clear();
-    for (unsigned bit = 0; bit < 8 * *unit; ++bit) {
+    for (unsigned bit = 0; bit < 8 * unit; ++bit) {
       const auto found = data.values.find("probe" + std::to_string(bit + 1));
       if (found == data.values.end()) continue;
       if (found->second == wanted) return bit;
@@ -155,10 +156,10 @@ Capture parse_sr(std::string_view bytes, const std::string& name, const CaptureN
   for (unsigned piece = 1; pieces ? zip.has(base + "-" + std::to_string(piece)) : piece == 1;
        ++piece) {
     const std::string samples = zip.read(pieces ? base + "-" + std::to_string(piece) : base);
-    for (std::size_t at = 0; at + *unit <= samples.size(); at += *unit, ++sample) {
+    for (std::size_t at = 0; at + unit <= samples.size(); at += unit, ++sample) {
       // Most samples are as the one before.
-      if (sample != 0 && samples.compare(at, *unit, before) == 0) continue;
-      before = samples.substr(at, *unit);
+      if (sample != 0 && samples.compare(at, unit, before) == 0) continue;
+      before = samples.substr(at, unit);
       const auto level = [&](unsigned bit) {
         return (static_cast<std::uint8_t>(before[bit / 8]) >> bit % 8 & 1U) != 0;
       };

@@ -121,7 +121,7 @@ Codes sent_codes(Bits& bits) {
     }
   }
   if (lengths.size() != literals + distances || literals > 286) throw BadData();
-  const auto middle = lengths.begin() + literals;
+  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(literals);
   return {Code({lengths.begin(), middle}), Code({middle, lengths.end()})};
 }
 

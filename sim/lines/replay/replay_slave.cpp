@@ -68,7 +68,8 @@ Time ReplaySlave::next_edge() const {
   }
   const Place at = place(next_);
   if (at.rising > risings_.size()) return kNever;
-  return (at.rising == 0 ? first_falling_ : risings_[at.rising - 1]) + at.after;
+  return (at.rising == 0 ? first_falling_ : risings_[static_cast<std::size_t>(at.rising - 1)]) +
+         at.after;
 }
 
 void ReplaySlave::wait() {
