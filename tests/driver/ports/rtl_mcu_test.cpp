@@ -324,6 +324,35 @@ TEST_F(DriverMcu, DwtClock_ReadsPositionsOverTheWrap) {
   read_positions(bus, clock);
 }
 
+// Why docs/boards.md refuses HAL_GetTick() * 1000: a step of 1 ms looks as if the frame had taken
+// so long.
+struct TickClock {
+  std::uint32_t now_us() {
+    chip->advance(100 * mb4::sim::kPsPerNs);
+    return static_cast<std::uint32_t>(chip->now() / (1000 * mb4::sim::kPsPerUs) * 1000);
+  }
+};
+
+template <typename Clock>
+unsigned false_timeouts(Clock& clock, mb4::sim::Simulator& simulator) {
+  mb4::ports::HalSpiBus bus(hspi1, &stub_port, GPIO_PIN_4);
+  mb4::Device<mb4::ports::HalSpiBus, Clock> device(bus, clock);
+  EXPECT_TRUE(device.configure(mb4test::encoder(false)).ok());
+  unsigned timeouts = 0;
+  for (int i = 0; i < 200; ++i) {
+    timeouts += device.read_frame().error() == mb4::Error::kTimeout ? 1 : 0;
+    simulator.advance(77 * mb4::sim::kPsPerUs);
+  }
+  return timeouts;
+}
+
+TEST_F(DriverMcu, StepsOfAMillisecond_AreFalseTimeouts) {
+  TickClock tick;
+  EXPECT_GT(false_timeouts(tick, simulator), 0U);
+  mb4::ports::TimerClock timer32(htim2);
+  EXPECT_EQ(false_timeouts(timer32, simulator), 0U);
+}
+
 // Each clock tells the time that has passed, in steps of a microsecond. The counters of 16 and 32
 // bits wrap meanwhile. HAL_GetTick() * 1000 would be wrong by up to 1000.
 template <typename Clock>
