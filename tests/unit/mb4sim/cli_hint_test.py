@@ -54,18 +54,22 @@ class Hints(CliTest):
                                  plain.stderr.splitlines())
                 self.assertNotIn("hint", plain.stdout)
 
+    def in_spi(self, setup):
+        """What the driver sends in `run`, with time for the first frame behind it, in `spi`."""
+        log = self.path("log.txt", "")
+        self.run_setup(setup, "--bus-log", log, frames=1)
+        sent = [line.split(">")[0].strip() for line in Path(log).read_text().splitlines()]
+        self.assertIn("07 04", sent)
+        by_hand = [line for line in setup.lines if not re.match("[0-9A-F]", line)]
+        scenario = self.path("scenario.toml", setup.scenario)
+        result = run("spi", scenario, text="".join(f"{line}\n" for line in [*sent, "+1000000", *by_hand]))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return result
+
     def test_each_wrong_setup_gives_its_hint_in_spi(self):
-        """What the driver sends in `run`, with time for the first frame behind it."""
         for setup in hint_cases.listed():
             with self.subTest(setup.name):
-                log = self.path("log.txt", "")
-                self.run_setup(setup, "--bus-log", log, frames=1)
-                sent = [line.split(">")[0].strip() for line in Path(log).read_text().splitlines()]
-                by_hand = [line for line in setup.lines if not re.match("[0-9A-F]", line)]
-                scenario = self.path("scenario.toml", setup.scenario)
-                text = "".join(f"{line}\n" for line in [*sent, "+1000000", *by_hand])
-                result = run("spi", scenario, text=text)
-                self.assertEqual(result.returncode, 0, result.stderr)
+                result = self.in_spi(setup)
                 hints = [{"place": setup.hint and setup.hint["place"], **LINE.fullmatch(line).groupdict()}
                          for line in result.stderr.splitlines() if "host timing" not in line]
                 self.assertEqual(hint_cases.wrong_with(setup, hints), "")
@@ -84,6 +88,30 @@ class Hints(CliTest):
                 bad += result.returncode
         print(f"{good} without a bad word, {bad} with bad words", file=sys.stderr)
         self.assertGreater(bad, RIGHT // 8)  # faults have done something
+
+    def test_what_fits_in_another_way_gives_none(self):
+        for name, scenario, line in (
+                ("software checks the CRC", "resolute-26", "02 C0 61 00"),
+                ("software checks the CRC of each word", "chain", "02 C0 61 00 00 00 5F 00"),
+                ("the last word leaves its CRC on the line", "chain", "02 C5 00"),
+                ("fewer words than slaves", "chain", "02 C4 19"),
+                ("a line is left out", "two-channels", "02 ED 0D"),
+                ("no word of one line", "two-channels", "02 D0 19"),
+                ("Gray code for software", "ssi-gray", "02 C0 4C"),
+                ("SSI: the repeated word too", "ssi-25", "02 C0 72")):
+            with self.subTest(name):
+                setup = hint_cases.Setup(name, hint_cases.scenario_text(scenario), [line])
+                self.assertEqual(self.in_spi(setup).stderr, "")
+
+    def test_run_misses_what_the_host_leaves_out(self):
+        for scenario, line, kind, text in (
+                ("chain", "02 C4 19", "enable", "no word of slave 2: ENSCD2 = 0"),
+                ("two-channels", "02 ED 0D", "channel", "channel 2, where 1 slave is: CFGCH2 = 3"),
+                ("two-channels", "02 D0 19", "enable", "no word of channel 2: ENSCD5 = 0"),
+                ("ssi-gray", "02 C0 4C", "gray", "slave 1 sends Gray code")):
+            with self.subTest(line):
+                setup = hint_cases.Setup(line, hint_cases.scenario_text(scenario), [line])
+                self.assert_one_line(self.run_setup(setup), 1, rf"hint \({kind}\): .*{text}")
 
     def test_a_smaller_chip_names_what_it_lacks(self):
         text = hint_cases.scenario_text("ssi-25")
