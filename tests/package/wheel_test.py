@@ -52,7 +52,7 @@ def check_contents(wheel, folder):
         assert f"openmb4/{name}" in names, name
     for name in EXAMPLES:
         assert f"openmb4/share/openmb4/examples/{name}.toml" in names, name
-    licences = {Path(name).name for name in names if "/licences/" in name}
+    licences = {Path(name).name for name in names if "/licences/" in name and name[-1] != "/"}
     assert licences == LICENCES, licences
     assert not [name for name in names if name.startswith("openmb4.libs/")], "grafted libraries"
     for name in ("bin/mb4sim", "lib/libmb4sim.so", "libopenmb4.so"):
