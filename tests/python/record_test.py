@@ -91,6 +91,8 @@ def test_notebook_shows_a_timing_diagram(chip):
     # A path of MA goes up and down once for each edge: places on x as the times say.
     path = re.findall(r'<path d="(M[^"]*)" fill', svg)[0]
     places = [float(x) for x in re.findall(r"H([\d.]+)V", path)]
-    times = record.pins["MA1"][0]
+    times, levels = record.pins["MA1"]
+    heights = [float(y) for y in re.findall(r"[ V]([\d.]+)(?=H)", path)]
+    assert [height < max(heights) for height in heights] == [level == 1 for level in levels]
     assert len(places) == len(times) - 1
     assert np.allclose(places, 80 + 800 * (times[1:] - record.start_ps) / 20e6, atol=0.06)
