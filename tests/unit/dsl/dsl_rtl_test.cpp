@@ -149,6 +149,59 @@ TEST_P(DslBus, AccessesOfAnyKind_LeaveTheMasterUsable) {
   EXPECT_EQ(page::LINK_STATE::get(status), 8U);
 }
 
+// Each frame's position, speed and time from the window, and both safe positions, beside the
+// encoder's ramp, and what the encoder has told of itself.
+void expect_frames_of_the_ramp(double metres, unsigned frames) {
+  const std::string text =
+      "[master]\ntype = \"dsl\"\n[[channel]]\nnumber = 1\ncable_m = " + std::to_string(metres) +
+      "\n[[channel.slave]]\nprotocol = \"dsl\"\nposition_bits = 28\nsource = \"ramp\"\n"
+      "start = 5\nstep = 700\nindex = 9\n";
+  DslSim side(text, 1, false);
+  const auto read = [&side](std::uint32_t address) {
+    std::uint32_t value = 0;
+    EXPECT_EQ(side.bus->read(address, value), std::uint8_t{0}) << address;
+    return value;
+  };
+  constexpr sim::Time kFrame = 11'520'000;
+  side.bus->write(page::kAddrIrqEnable, page::FRAME_ENDED_ENABLE::kMask, 0xF);
+  std::uint32_t number = 0;
+  std::uint64_t position = 0;
+  unsigned certain = 0;
+  for (unsigned tries = 0; certain < frames && tries < 200 + frames; ++tries) {
+    SCOPED_TRACE(tries);
+    const sim::Time end = side.simulator->now() + 20 * kFrame;
+    side.simulator->run_while_waiting([&side] { return side.level("irq_o"); }, end);
+    if (!side.level("irq_o")) continue;  // no link yet
+    side.bus->write(page::kAddrIrqStatus, 0x1F, 0xF);
+    const std::uint64_t now = read(page::kAddrPosLo);
+    const std::uint32_t count = read(page::kAddrFrameCount);
+    const bool lost = page::FRAME_POS_LOST::get(read(page::kAddrFrameStatus)) != 0;
+    if (!lost) {
+      ASSERT_EQ(read(page::kAddrVel), 700U);
+      ASSERT_EQ((now - 5) % 700, 0U);
+      if (certain++ != 0) {
+        ASSERT_EQ(now - position, 700U * (count - number));
+      }
+      position = now;
+      number = count;
+    }
+    if (count % 8 != 0 || lost) continue;
+    const std::uint64_t safe = read(page::kAddrSafe1Lo);
+    ASSERT_EQ(read(page::kAddrSafe1Age), 0U);
+    ASSERT_EQ(now - safe, 700U * 8);
+    const std::uint32_t second = read(page::kAddrSafe2Lo);
+    ASSERT_EQ(second, ~static_cast<std::uint32_t>(safe));
+  }
+  EXPECT_EQ(certain, frames);
+  // The identity, bytes 0Dh to 0Fh: 28 bits are 17 and 11, and the index.
+  const std::uint32_t identity = read(map::kAddrEncId2 & ~3U);
+  EXPECT_EQ(identity >> 24U & 0xF3U, (17U << 4U | 3U) & 0xF3U);
+}
+
+TEST(DslRuns, CableOf20Metres_BringsEachPosition) { expect_frames_of_the_ramp(20, 24); }
+TEST(DslRuns, CableOf100Metres_BringsEachPosition) { expect_frames_of_the_ramp(100, 200); }
+TEST(DslRuns, NoCable_BringsEachPosition) { expect_frames_of_the_ramp(0, 200); }
+
 INSTANTIATE_TEST_SUITE_P(Hz, DslBus,
                          testing::Values(10'000'000, 75'000'000, 100'000'000, 250'000'000));
 
