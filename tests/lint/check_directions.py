@@ -89,6 +89,9 @@ MAY_USE = {
     **{f"sim/masters/{master.name}/": ("sim/core/", "sim/hosts/", "sim/lines/", "sim/masters/", "sim/model/", "regmap/",
                                          *LINES[master.line])
        for master in MASTERS},
+    # The RTL of a DSL master follows the rules that its model knows.
+    "sim/masters/dsl/": ("sim/core/", "sim/hosts/", "sim/lines/", "sim/masters/", "sim/masters/dsl_model/", "sim/model/",
+                         *LINES["duplex"]),
     **{master.room: (*master.uses, *(["regmap/"] if master.maps else [])) for master in MASTERS if master.list},
     **{name: ("drivers/include/enc/", "regmap/") for name in OTHER_DRIVERS},
     "sim/masters/mb4/": ("sim/core/", "sim/hosts/", "sim/masters/", "sim/model/", "sim/masters/mb4/model/",

@@ -40,7 +40,7 @@ def main():
         parameters["Features"] = project.presets()[arguments.preset]
     commands = yosys.read(project.listed(design.master.list)) + yosys.choose(top, parameters) + [
         f"hierarchy -check -top {top}", f"rename -top {top}", "proc", "flatten",
-        f"expose {' '.join(f'{top}/w:{probe}' for probe in design.probes)}",
+        *([f"expose {' '.join(f'{top}/w:{probe}' for probe in design.probes)}"] if design.probes else []),
         f"synth_ice40 -top {top}", "check -assert",
         "select -assert-none t:$dlatch t:$_DLATCH_* t:$_SR_*",
         "splitnets -ports", "setundef -zero", "opt_clean",

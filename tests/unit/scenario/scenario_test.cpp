@@ -248,7 +248,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadScenario{
             "Master", "[master]\ntype = \"ic-mb9\"\n",
             "s.toml:2:8: key 'type': unknown value 'ic-mb9', expected one of: ic-mb4, axi, clb, "
-            "pru, dsl-model"},
+            "pru, dsl, dsl-model"},
         BadScenario{"MasterKey", "[master]\nname = \"ic-mb4\"\n",
                     "s.toml:2:1: key 'name': unknown key"},
         BadScenario{"UnknownKey", "[chip]\nf_clk_hz = 20_000_000\nf_clk = 3\n",

@@ -31,8 +31,7 @@ constexpr const MasterSupport* kAll[] = {
     &kPruSupport,
 #endif
 #if MB4SIM_WITH_DSL
-    &kDslSupport,
-    &kDslModelSupport,
+    &kDslSupport, &kDslModelSupport,
 #endif
 };
 
