@@ -12,6 +12,7 @@ module dsl_axil #(
   parameter bit          SDK_MAP      = 1'b0,
   parameter bit          RECOVER      = !SDK_MAP,
   parameter bit          STRICT_CODE  = 1'b1,
+  parameter bit          STRICT_ID    = 1'b1,
   parameter int unsigned SAMPLE       = SDK_MAP ? 0 : 2,
   parameter int unsigned RULES        = SDK_MAP ? 2 : 1,   // document, sick, firmware
   parameter bit          RSSI_TABLE   = 1'b0,
@@ -66,6 +67,7 @@ module dsl_axil #(
     quirks.sdk_map      = SDK_MAP;
     quirks.recover      = RECOVER;
     quirks.strict_code  = STRICT_CODE;
+    quirks.strict_id    = STRICT_ID;
     quirks.sample       = 2'(SAMPLE);
     quirks.rules        = 2'(RULES);
     quirks.rssi_table   = RSSI_TABLE;

@@ -9,16 +9,16 @@
 // K29.7, K30.7, each as it follows a right start. Else as published: four or five equal bits in two
 // places are an error, and a word that no table has reads as FFh.
 // K28.1, K28.2, K28.5 and K28.6 that begin with 110000 read with their upper three bits inverted in
-// the tables of data. Outside the acceleration the strict check mends this, else the second safe
-// channel alone.
+// the tables of data. The strict check mends this but for raw_i, the published one in the second
+// safe channel alone; with second_i both do.
 // Misuse: none, each word has an answer.
 // Source: docs/dsl.md, "The protocol"; Widmer and Franaszek for the code.
 
 module dsl_code_rx (
   input  logic [9:0]     line_i,          // the first bit is bit 9
   input  logic           strict_i,
-  input  logic           acceleration_i,  // the word is one of the acceleration
-  input  logic           second_i,        // ... of the second safe channel
+  input  logic           raw_i,           // K28 as the tables of data have it
+  input  logic           second_i,        // the word is one of the second safe channel
   output dsl_pkg::word_t word_o
 );
 
@@ -135,7 +135,7 @@ module dsl_code_rx (
                       || line_i[5:1] == 5'b00000 || line_i[5:1] == 5'b11111;
 
   // y = 1, 2, 5, 6 has no disparity.
-  assign mend = (second_i || (strict_i && !acceleration_i)) && k28 && less
+  assign mend = (second_i || (strict_i && !raw_i)) && k28 && less
              && !wants_more && !wants_less;
 
   assign word_o.data        = none6 || none4 ? 8'hFF : {y ^ {3{mend}}, x};

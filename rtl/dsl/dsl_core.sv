@@ -37,6 +37,8 @@ module dsl_core (
   input  logic             dsl_in_i
 );
 
+  localparam int unsigned SIGNED = 10;   // bit of the identity
+
   logic                  rst_n;
   dsl_pkg::answer_t      answer;
   dsl_pkg::verdict_t     verdict;
@@ -79,6 +81,8 @@ module dsl_core (
     .rst_ni    (rst_n),
     .quirks_i,
     .limit_i   (limit),
+    .width_i   (status.width),
+    .signed_i  (status.identity[SIGNED]),
     .answer_i  (answer),
     .verdict_o (verdict),
     .told_o    (told)

@@ -10,7 +10,8 @@
 //
 // Only running frames move the quality (running_i). VSYNC belongs into the last of the eight frames
 // alone; where S_PAR has an error of its code, VSYNC is not looked at. The acceleration has one
-// deduction for both of its words. verdict_i is looked at behind ends_o.
+// deduction for both of its words. With the strict check K28.x is a byte like others but in S_PAR.
+// verdict_i is looked at behind ends_o. illegal_o counts in each frame with words (words_i).
 // Misuse: a word less than two clocks behind another, or ends_o less than two behind a word, loses
 // events.
 // Source: docs/dsl.md, "Choices of this master".
@@ -20,6 +21,7 @@ module dsl_judge (
   input  logic              rst_ni,
   input  dsl_pkg::quirks_t  quirks_i,
   input  logic              start_i,       // the quality begins
+  input  logic              words_i,       // the window brings words of the code
   input  logic              running_i,
   input  logic [2:0]        place_i,
   // a window
@@ -61,7 +63,7 @@ module dsl_judge (
   logic           ends_q;                // the steps at the end of a frame, one clock each
   logic           safe1_q, safe2_q, judged_q;
   logic [15:0]    illegal_q;
-  logic           vsync, last;
+  logic           vsync, last, k28;
   logic           marker;                // allowed there
   logic           special;               // one that must not be there
   logic           add;
@@ -69,21 +71,22 @@ module dsl_judge (
 
   dsl_code_rx u_code (
     .line_i,
-    .strict_i       (quirks_i.strict_code),
-    .acceleration_i (number_i == HIGH_WORD || number_i == LOW_WORD),
-    .second_i       (number_i == SECONDARY),
-    .word_o         (decoded)
+    .strict_i (quirks_i.strict_code),
+    .raw_i    (quirks_i.sdk_map || number_i == HIGH_WORD || number_i == LOW_WORD),
+    .second_i (number_i == SECONDARY),
+    .word_o   (decoded)
   );
 
   assign vsync = word_q.data[7];
   assign last  = place_i == LAST_PLACE;
+  assign k28   = word_q.data[4:0] == K28;
 
   always_comb begin
     case (number_q)
       PARAMETER: marker = 1'b0;
       PIPELINE:  marker = 1'b1;
-      SECONDARY: marker = word_q.data == MARKER2 || word_q.data[4:0] == K28;
-      default:   marker = word_q.data == MARKER1;
+      SECONDARY: marker = word_q.data == MARKER2 || k28;
+      default:   marker = word_q.data == MARKER1 || (k28 && quirks_i.strict_code);
     endcase
   end
   assign special = word_q.special && !word_q.error && !marker;
@@ -162,7 +165,7 @@ module dsl_judge (
         word_q   <= decoded;
         before_q <= word_q.error;
       end
-      if (valid_q && running_i && word_q.only_strict) illegal_q <= illegal_q + 16'd1;
+      if (valid_q && words_i && word_q.only_strict) illegal_q <= illegal_q + 16'd1;
     end
   end
 

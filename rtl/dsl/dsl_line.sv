@@ -54,6 +54,7 @@ module dsl_line (
   logic [2:0]       reason;
   logic [15:0]      resets;
   logic [19:0]      identity;
+  logic [5:0]       width;
   logic             ended_q, sampled_q;
 
   dsl_phy u_phy (
@@ -101,6 +102,7 @@ module dsl_line (
     .rst_ni,
     .quirks_i,
     .start_i      (start),
+    .words_i      (purpose == dsl_pkg::FOR_WORDS || purpose == dsl_pkg::FOR_IDENTITY),
     .running_i    (running),
     .place_i      (vertical_place),
     .word_valid_i (word_valid),
@@ -138,6 +140,7 @@ module dsl_line (
     .judged_i   (judged),
     .good_i     (good),
     .missing_i  (verdict_i.missing),
+    .misfit_i   (verdict_i.misfit),
     .start_o    (start),
     .linked_o   (linked),
     .begins_o   (begins),
@@ -146,7 +149,8 @@ module dsl_line (
     .state_o    (state),
     .reason_o   (reason),
     .resets_o   (resets),
-    .identity_o (identity)
+    .identity_o (identity),
+    .width_o    (width)
   );
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -176,6 +180,7 @@ module dsl_line (
   assign status_o.resets   = resets;
   assign status_o.illegal  = illegal;
   assign status_o.identity = identity;
+  assign status_o.width    = width;
   assign status_o.quality  = quality;
   assign status_o.low      = low;
   assign status_o.rssi     = rssi;

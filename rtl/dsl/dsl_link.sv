@@ -13,7 +13,8 @@
 // frames without end. A frame that has to answer and does not as it should is the last one: a gap
 // follows, and RESET. linked_o is 1 from a good identity to the frame that ends the link. An
 // identity is good if its two copies agree, and if its widths can be: 8 to 11 bits for the
-// acceleration, 40 at most for the position. A vsync_limit of 0 is none.
+// acceleration, 40 at most for the position. With strict_id it also has to be whole, and the link
+// ends with a safe position that has bits above the width. A vsync_limit of 0 is none.
 // hold_i: the frame is finished, then the driver is off up to the end of hold_i. This is no restart
 // that counts.
 // Misuse: none.
@@ -40,6 +41,7 @@ module dsl_link (
   input  logic             judged_i,
   input  logic             good_i,         // the quality is
   input  logic             missing_i,      // too many accelerations
+  input  logic             misfit_i,       // a safe position has bits above its width
   output logic             start_o,        // linked_o is 1 from the next clock on
   output logic             linked_o,
   output logic             begins_o,       // its first clock
@@ -48,7 +50,8 @@ module dsl_link (
   output logic [3:0]       state_o,        // dsl_pkg::state_e
   output logic [2:0]       reason_o,       // dsl_pkg::reason_e
   output logic [15:0]      resets_o,
-  output logic [19:0]      identity_o
+  output logic [19:0]      identity_o,
+  output logic [5:0]       width_o         // of the position, less 8
 );
 
   localparam logic [7:0] RESET_LAST = 8'd1;
@@ -74,6 +77,7 @@ module dsl_link (
   logic        fails;              // the frame does
   logic        restart;
   logic [6:0]  width;              // of the position, less 8
+  logic        more;               // another part of the identity would follow
 
   assign asks    = state_q == dsl_pkg::ID_STATE;
   assign waits   = state_q == dsl_pkg::VSYNC_STATE;
@@ -132,6 +136,7 @@ module dsl_link (
   always_comb begin
     case (state_q)
       dsl_pkg::START_STATE:                       purpose_o = dsl_pkg::FOR_START;
+      dsl_pkg::ID_STATE:                          purpose_o = dsl_pkg::FOR_IDENTITY;
       dsl_pkg::LEARN_STATE, dsl_pkg::CHECK_STATE: purpose_o = dsl_pkg::FOR_MATCH;
       default:                                    purpose_o = dsl_pkg::FOR_WORDS;
     endcase
@@ -139,11 +144,12 @@ module dsl_link (
 
   // The identity stands there twice. Errors of the code are not looked at.
   assign width = {1'b0, high_q[1:0], low_q[7:4]} + {3'd0, low_q[3:0]};
+  assign more  = top_q[3] && quirks_i.strict_id;
   always_comb begin
     wrong_d = wrong_q;
     if (done_i) begin
       if (!asks) wrong_d = !match_i;
-      else if (low_q[3:0] > MOST_ACCELERATION || width > MOST_BITS) wrong_d = 1'b1;
+      else if (low_q[3:0] > MOST_ACCELERATION || width > MOST_BITS || more) wrong_d = 1'b1;
     end
     if (asks && valid_i) begin
       case (number_i)
@@ -160,7 +166,7 @@ module dsl_link (
   always_comb begin
     fails = wrong_q;
     if (waits)   fails = !vsync_q && count == {1'b0, quirks_i.vsync_limit};
-    if (running) fails = !good_i || missing_i;
+    if (running) fails = !good_i || missing_i || misfit_i;
   end
   assign restart = judged_i && fails && !gap_o;
   assign start_o = judged_i && !fails && asks && !gap_o;
@@ -193,8 +199,9 @@ module dsl_link (
       if (begin_i)                                vsync_q <= 1'b0;
       else if (valid_i && waits && number_i == 3'd1) vsync_q <= word_i.data[7] && !word_i.error;
       if (restart) begin
-        // Each state has its reason, RUN two.
+        // Each state has its reason, RUN three.
         reason_q <= (state_q[2:0] - 3'd2) | {2'd0, running && good_i};
+        if (running && good_i && !missing_i) reason_q <= dsl_pkg::BAD_IDENTITY;
         resets_q <= resets_q + 16'd1;
       end
       if (asks && valid_i && number_i == 3'd0) low_q  <= word_i.data;
@@ -212,5 +219,6 @@ module dsl_link (
   assign reason_o   = reason_q;
   assign resets_o   = resets_q;
   assign identity_o = {top_q, high_q, low_q};
+  assign width_o    = width[5:0];
 
 endmodule

@@ -35,7 +35,8 @@ package dsl_pkg;
   typedef enum logic [1:0] {
     FOR_START = 2'd0,        // the answer is looked for
     FOR_MATCH = 2'd1,        // LEARN, CHECK: it has to be the test pattern
-    FOR_WORDS = 2'd2         // it carries data
+    FOR_WORDS = 2'd2,        // it carries data of a link
+    FOR_IDENTITY = 2'd3      // ... that makes one
   } purpose_e;
 
   // Whose steps the quality monitor has.
@@ -97,6 +98,7 @@ package dsl_pkg;
     logic       sdk_map;
     logic       recover;
     logic       strict_code;
+    logic       strict_id;
     logic [1:0] sample;          // sample_e
     logic [1:0] rules;           // rules_e
     logic       rssi_table;
@@ -140,7 +142,7 @@ package dsl_pkg;
     logic       valid;       // one clock: there is a word
     logic [2:0] number;      // vertical, S_PAR, pipeline, two of the acceleration, secondary
     word_t      word;        // up to the next one
-    logic       ends;        // one clock, ten clocks or more behind the last word
+    logic       ends;        // one clock, nine clocks or more behind the last word
   } answer_t;
 
   // What a running frame has told about safe channels and position. Right from the clock behind
@@ -149,6 +151,7 @@ package dsl_pkg;
     logic safe1_error;       // its code, once in a vertical frame, or its CRC
     logic safe1_good;        // a whole vertical frame without an error of code or CRC
     logic safe2_error;
+    logic misfit;            // a good safe position 1 has bits above the width of the identity
     logic missing;           // too many accelerations, one after another
   } verdict_t;
 
@@ -159,6 +162,7 @@ package dsl_pkg;
     logic [15:0] resets;     // since the reset; it wraps
     logic [15:0] illegal;    // words that only the strict check refused; it wraps
     logic [19:0] identity;   // of the encoder
+    logic [5:0]  width;      // of its position, less 8
     logic [3:0]  quality;
     logic        low;        // ... is below 14
     logic [3:0]  rssi;
@@ -178,10 +182,11 @@ package dsl_pkg;
 
   // What dsl_vertical tells dsl_position and the registers.
   typedef struct packed {
-    logic       acceleration_good;  // of this frame
-    logic [4:0] missing;            // accelerations, one after another
-    logic       safe1_valid;        // the last vertical frame brought a good safe position
-    logic       safe1_error;        // its code or its CRC was wrong
+    logic       acceleration_good;    // of this frame
+    logic       acceleration_marked;  // the encoder says that it has none
+    logic [4:0] missing;              // accelerations, one after another
+    logic       safe1_valid;          // the last vertical frame brought a good safe position
+    logic       safe1_error;          // its code or its CRC was wrong
     logic       safe2_valid;
     logic       safe2_error;
   } told_t;

@@ -15,12 +15,13 @@
 // byte of a number comes first; dsl_program has its order, eight addresses a value. An age is all
 // ones if none has come. Each tell_o has a whole record before it, so a reader needs banks that
 // change with it (dsl_record). Status: byte 0 as STATUS, with the errors of the two safe channels
-// in bits 6 and 7; byte 1 quality and delay; byte 2 the state of the link; byte 3 the reason.
+// in bits 6 and 7; byte 1 quality and delay; byte 2 the state of the link; byte 3 the reason. It is
+// that of the frame's end. A link that is over makes a record more, without young safe positions.
 //
 // time_i: the byte of the frame's time; time_next_o asks for the next one, eight times a frame, the
 // lowest one first. The first one is taken 5 clocks or more behind the second word.
-// Misuse: a frame that ends before tell_o of the frame before is left out. An
-// identity with more than 40 bits of position has a position without bits.
+// Misuse: a frame that ends before tell_o of the frame before is left out. A width of more than 40
+// bits is a position without bits.
 // Source: docs/dsl.md, "Position".
 
 module dsl_position (
@@ -45,6 +46,7 @@ module dsl_position (
   localparam logic [2:0] LOW_WORD   = 3'd4;
   localparam logic [2:0] SECONDARY  = 3'd5;
   localparam logic [2:0] LAST_PLACE = 3'd7;
+  localparam int unsigned SIGNED    = 10;    // bit of the identity
 
   // Rows.
   logic                         ready_q;     // the first row has been read
@@ -54,7 +56,7 @@ module dsl_position (
   dsl_program_pkg::sum_t        sum;
   dsl_program_pkg::jump_t       jump;
   dsl_program_pkg::conditions_t conditions;
-  logic [13:0]                  condition_bits;
+  logic [14:0]                  condition_bits;
   logic                         is_sum, set, tell;
   logic                         taken, next;
 
@@ -82,13 +84,13 @@ module dsl_position (
   logic [4:0] word_to;
   logic [2:0] word_index;
   logic       frame_q, begun_q, vertical_q, ended_q;
+  logic       ran_q;          // the record is one of a running frame
+  logic       shown_q;        // a record shows a link
   logic [2:0] align_q;        // dsl_program_pkg::align_e
   logic       certain_q;      // lost_o was 0
   logic [1:0] stale_d, stale_q; // vertical frames without a good safe position 1
   logic       stale;
   logic [7:0] status0;
-  logic [10:0] identity;
-  logic [6:0] width;
 
   assign run = ready_q && !stores;
 
@@ -107,9 +109,10 @@ module dsl_position (
   assign set    = sum.kind == dsl_program_pkg::SET;
   assign tell   = sum.kind == dsl_program_pkg::TELL;
 
-  assign conditions.is_signed = identity[10];
+  assign conditions.over      = shown_q && !answer_i.linked;
+  assign conditions.is_signed = status_i.identity[SIGNED];
   assign conditions.in_state  = align_q == jump.state;
-  assign conditions.recover   = quirks_i.recover;
+  assign conditions.recover   = quirks_i.recover && !told_i.acceleration_marked;
   assign conditions.stale     = stale;
   assign conditions.new2      = told_i.safe2_valid;
   assign conditions.new1      = told_i.safe1_valid;
@@ -155,23 +158,20 @@ module dsl_position (
     .rd_data_o (memory)
   );
 
-  // Bits of the position less those of the acceleration, and bits of the acceleration less 8.
-  assign identity = status_i.identity[10:0];
-  assign width    = {1'b0, identity[9:4]} + {3'd0, identity[3:0]} + 7'd8;
-
   assign status0 = {told_i.safe2_error, told_i.safe1_error,
                     told_i.safe2_error || told_i.safe1_error,
-                    told_i.safe2_valid, told_i.safe1_valid,
-                    answer_i.running, answer_i.linked, align_q != dsl_program_pkg::ALIGNED};
+                    told_i.safe2_valid && answer_i.linked, told_i.safe1_valid && answer_i.linked,
+                    answer_i.running || ran_q, answer_i.linked,
+                    align_q != dsl_program_pkg::ALIGNED};
 
   always_comb begin
     in = time_i;
-    if (sum.second[1:0] == dsl_program_pkg::IN_WIDTH) in = {1'b0, width};
+    if (sum.second[1:0] == dsl_program_pkg::IN_WIDTH) in = {1'b0, {1'b0, status_i.width} + 7'd8};
     if (sum.second[1:0] == dsl_program_pkg::IN_STATUS) begin
       case (index_q[1:0])
         2'd0:    in = status0;
         2'd1:    in = {status_i.place[11:8], status_i.quality};
-        2'd2:    in = {4'd0, status_i.state};
+        2'd2:    in = {4'd0, ran_q ? dsl_pkg::RUN_STATE : status_i.state};
         default: in = {5'd0, status_i.reason};
       endcase
     end
@@ -270,6 +270,8 @@ module dsl_position (
     if (!rst_ni) begin
       frame_q    <= 1'b0;
       begun_q    <= 1'b0;
+      ran_q      <= 1'b0;
+      shown_q    <= 1'b0;
       ended_q    <= 1'b0;
       vertical_q <= 1'b0;
       stale_q    <= '0;
@@ -280,6 +282,8 @@ module dsl_position (
       else if (answer_i.valid && answer_i.number == LOW_WORD) frame_q <= answer_i.running;
       if (answer_i.begins)     begun_q <= 1'b1;
       else if (answer_i.valid) begun_q <= 1'b0;
+      ran_q   <= frame_q || (ran_q && !tell_o);
+      shown_q <= answer_i.linked || frame_q || (shown_q && !(tell_o && jump.unused[0]));
       // told_i is right a clock later.
       ended_q <= answer_i.ends && answer_i.running && answer_i.place == LAST_PLACE;
       if (answer_i.ends) vertical_q <= answer_i.running && answer_i.place == LAST_PLACE;

@@ -52,7 +52,8 @@ module dsl_program (
   // Conditions: the bits of dsl_program_pkg::conditions_t.
   localparam logic [3:0] ZERO = 4'd0, CARRY = 4'd1, NEGATIVE = 4'd2, ALWAYS = 4'd3, FRAME = 4'd4,
                          BEGUN = 4'd5, GOOD = 4'd6, VERTICAL = 4'd7, NEW1 = 4'd8, NEW2 = 4'd9,
-                         STALE = 4'd10, RECOVER = 4'd11, IN_STATE = 4'd12, SIGNED = 4'd13;
+                         STALE = 4'd10, RECOVER = 4'd11, IN_STATE = 4'd12, SIGNED = 4'd13,
+                         OVER = 4'd14;
 
   // States: dsl_program_pkg::align_e; inputs: dsl_program_pkg::input_e.
   localparam logic [2:0] FIRST = 3'd0, SECOND = 3'd1, THIRD = 3'd2, FOURTH = 3'd3, ALIGNED = 3'd4,
@@ -67,7 +68,8 @@ module dsl_program (
                          PAUSE = PLACE + 8'd3, WITHOUT = PAUSE + 8'd1, FAIL = WITHOUT + 8'd2,
                          KEEP = FAIL + 8'd1, OFF = KEEP + 8'd3, CORRECT = OFF + 8'd6,
                          MEND = CORRECT + 8'd9, MENDED = MEND + 8'd22, ENDED = MENDED + 8'd12,
-                         SHOW = ENDED + 8'd3, STATUS = SHOW + 8'd5, IDLE = STATUS + 8'd2;
+                         SHOW = ENDED + 8'd3, STATUS = SHOW + 8'd5, IDLE = STATUS + 8'd2,
+                         CLOSE = IDLE + 8'd4;
 
   // Rows. The last twelve bits of a sum are source, change and carry, and six that can be added.
   function automatic logic [31:0] plus(input logic [4:0] to, first, second, input logic [2:0] last);
@@ -119,8 +121,8 @@ module dsl_program (
   function automatic logic [31:0] set(input logic [2:0] state, input logic [7:0] target);
     set = {dsl_program_pkg::SET, 1'b0, ALWAYS, target, state, 14'd0};
   endfunction
-  function automatic logic [31:0] tell();
-    tell = {dsl_program_pkg::TELL, 30'd0};
+  function automatic logic [31:0] tell(input logic closes);
+    tell = {dsl_program_pkg::TELL, 29'd0, closes};
   endfunction
 
   logic [31:0] row, row_q;
@@ -321,11 +323,25 @@ module dsl_program (
       SHOW + 8'd4:      row = plus_not(WIDE, WIDE, MASK, 3'd7);
       // Its last value.
       STATUS:           row = take(COUNT, IN_STATUS, 3'd3) | UPPER;
-      STATUS + 8'd1:    row = tell();
+      STATUS + 8'd1:    row = tell(1'b0);
       // Waits.
       IDLE:             row = jump_if(FRAME, BEGIN);
       IDLE + 8'd1:      row = jump_if(BEGUN, LINK);
-      IDLE + 8'd2:      row = jump_if(ALWAYS, IDLE);
+      IDLE + 8'd2:      row = jump_if(OVER, CLOSE);
+      IDLE + 8'd3:      row = jump_if(ALWAYS, IDLE);
+      // The link is over: no safe position is young. The first row gives dsl_record time.
+      CLOSE:            row = copy(NOWHERE, FAST, 3'd7);
+      CLOSE + 8'd1:     row = ones(AGES, 3'd7);
+      CLOSE + 8'd2:     row = copy(FAST, FAST, 3'd4);
+      CLOSE + 8'd3:     row = copy(SPEED, SPEED, 3'd4);
+      CLOSE + 8'd4:     row = copy(COUNT, COUNT, 3'd3);
+      CLOSE + 8'd5:     row = copy(TIME, TIME, 3'd7);
+      CLOSE + 8'd6:     row = copy(SAFE1, SAFE1, 3'd7);
+      CLOSE + 8'd7:     row = copy(SAFE2, SAFE2, 3'd7);
+      CLOSE + 8'd8:     row = copy(WIDE, WIDE, 3'd7);
+      CLOSE + 8'd9:     row = take(COUNT, IN_STATUS, 3'd3) | UPPER;
+      CLOSE + 8'd10:    row = tell(1'b1);
+      CLOSE + 8'd11:    row = jump_if(ALWAYS, IDLE);
       default:          row = jump_if(ALWAYS, IDLE);
     endcase
   end

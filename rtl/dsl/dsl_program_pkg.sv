@@ -64,13 +64,14 @@ package dsl_program_pkg;
     logic [3:0]  condition; // number of a bit of conditions_t
     logic [7:0]  target;
     logic [2:0]  state;     // of SET and in_state
-    logic [13:0] unused;
+    logic [13:0] unused;    // of TELL the lowest one: the record is that of no link
   } jump_t;
 
   typedef struct packed {
+    logic over;             // a link is that the newest record still shows
     logic is_signed;        // the position is
     logic in_state;         // the alignment is in the state of the row
-    logic recover;
+    logic recover;          // a missing acceleration is repaired, this one too
     logic stale;            // too many vertical frames without a good safe position 1
     logic new2;             // the vertical frame has a good safe position 2
     logic new1;

@@ -182,7 +182,8 @@ module dsl_regs (
         dsl_map_pkg::ACC_ERR_CNT:  register = {3'd0, told_i.missing};
         dsl_map_pkg::THRESH:       register = {3'd0, limit_q};
         dsl_map_pkg::STATUS0:      register = {2'd0, told_i.safe1_error || told_i.safe2_error,
-                                               told_i.safe2_valid, told_i.safe1_valid,
+                                               told_i.safe2_valid && answer_i.linked,
+                                               told_i.safe1_valid && answer_i.linked,
                                                answer_i.running, answer_i.linked, lost_i};
         dsl_map_pkg::STATUS1:      register = {place_q[11:8], status_i.quality};
         dsl_map_pkg::STATUS2:      register = {4'd0, status_i.state};
@@ -314,6 +315,7 @@ module dsl_regs (
   );
 
   assign unused = ^{answer_i.begins, answer_i.number, answer_i.word, told_i.acceleration_good,
+                    told_i.acceleration_marked, status_i.width,
                     word_data_i[31:16], word_be_i[3:2]};
 
 endmodule

@@ -8,9 +8,9 @@
 // changes only in between, but for the first window, whose first low level sets it.
 //
 // The first window of START (after forget_i) only measures: its first 0 is the place, and its edges
-// then move the place twice. In each other window they move it once. With bounded_i that is by 2
-// eighths at most, and the answer stays where it fits. An edge belongs to the nearest begin of a
-// bit.
+// then move the place twice. In each other window they move it once, with linked_i by
+// 2 eighths at most; with words_i the answer stays where it fits. An edge belongs to the nearest
+// begin of a bit.
 // The first 64 edges count; less than 8 move nothing. Edges count from three samples before the
 // place to the end of 61 bits.
 //
@@ -27,7 +27,8 @@ module dsl_sample (
   input  logic             rst_ni,
   input  logic             forget_i,
   input  logic             start_i,     // the window is one of START
-  input  logic             bounded_i,
+  input  logic             linked_i,    // ... of a link
+  input  logic             words_i,     // ... that brings words
   input  dsl_pkg::stream_t stream_i,
   output logic             first_o,     // the window only measures
   output logic             found_o,     // ... and had a 0
@@ -185,7 +186,7 @@ module dsl_sample (
       end
       BOUND: begin
         // Two eighths are 64.
-        if (bounded_i && move[7:6] != {2{move[8]}}) begin
+        if (linked_i && move[7:6] != {2{move[8]}}) begin
           quot_d = move[8] ? -9'd64 : 9'd64;
           rest_d = 6'd0;
         end
@@ -197,8 +198,8 @@ module dsl_sample (
       end
       default: begin
         // The place is where it has to be, or is brought there.
-        if (bounded_i && low)       place_d = {1'b0, FIRST_FIT, 5'd0};
-        else if (bounded_i && high) place_d = {1'b0, LAST_FIT, 5'd31};
+        if (words_i && low)         place_d = {1'b0, FIRST_FIT, 5'd0};
+        else if (words_i && high)   place_d = {1'b0, LAST_FIT, 5'd31};
         else if (place_q[12])       place_d = 13'd0;
         again_d = first_o;
         step_d  = 4'd0;

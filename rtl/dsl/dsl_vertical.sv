@@ -6,22 +6,26 @@
 //
 // Clock domain: core. A word is taken with answer_i.valid and needs the nine clocks behind it. From
 // the clock behind answer_i.ends on verdict_o and told_o are those of the frame; a frame that is
-// not running leaves told_o. told_o.acceleration_good is right earlier: from the tenth clock behind
-// the second word of the acceleration on.
+// not running leaves told_o. told_o.acceleration_good and _marked are right earlier: from the ninth
+// clock behind the second word of the acceleration on.
 //
 // A safe channel is good if neither the code of its eight bytes nor their CRC was wrong, and if no
 // special character but K28.x was among them: with one the encoder says that it has no position.
 // With the strict check such a character makes an acceleration bad too. With the rules of the
 // firmware bit TEST2 of the second channel counts for the quality, its CRC does not.
-// Misuse: a word less than ten clocks behind another, or behind `ends`, spoils both. A link that
-// goes on after verdict_o.missing counts beyond 31, to 0.
+// A good safe position 1 whose bits above the width are not as its sign, or 0, is a misfit: then
+// the width of the identity is wrong. That is looked at with strict_id.
+// Misuse: a word, or `ends`, less than nine clocks behind a word spoils both. A link that goes on
+// after verdict_o.missing counts beyond 31, to 0.
 // Source: docs/dsl.md, "The protocol"; CRC16 is enc_crc's, with its last byte inverted.
 
 module dsl_vertical (
   input  logic              clk_i,
   input  logic              rst_ni,
   input  dsl_pkg::quirks_t  quirks_i,
-  input  logic [4:0]        limit_i,      // of missing accelerations
+  input  logic [4:0]        limit_i,      // of missing accelerations; 0 is as 1
+  input  logic [5:0]        width_i,      // of the position, less 8
+  input  logic              signed_i,     // it has a sign
   input  dsl_pkg::answer_t  answer_i,
   output dsl_pkg::verdict_t verdict_o,
   output dsl_pkg::told_t    told_o
@@ -38,6 +42,8 @@ module dsl_vertical (
   localparam logic [7:0] POLY5       = 8'h05;
   localparam logic [2:0] POLY5_LAST  = 3'd4;
   localparam logic [4:0] K28         = 5'd28;
+  localparam logic [7:0] MARKER      = 8'hFD;
+  localparam logic [6:0] ABOVE       = 7'd41; // RX0, 40 bits less the 8 of the width, the sign
 
   // The bits of a word, one a clock.
   logic [7:0] byte_q;
@@ -52,14 +58,19 @@ module dsl_vertical (
   logic       mark;           // a special character but K28.x
   logic       firmware;
   logic       whole;          // a vertical frame ends, or none runs
+  logic [6:0] number;         // of a bit in the channel, with the width
+  logic       above;          // the bit is above the position, or its sign
+  logic       top;            // ... the first one
+  logic       before_q;       // the bit before
   // what has been wrong in this vertical frame
-  logic       code1_q, mark1_q, crc1_q;
+  logic       code1_q, mark1_q, crc1_q, wide1_q;
   logic       code2_q, mark2_q, crc2_q;
   // ... in this frame
   logic       event1_q, event2_q;
-  logic       bad_q;
+  logic       bad_q, marked_q;
   logic [4:0] missing_q;
   logic       error1_q, good1_q, error2_q;    // verdict_o
+  logic       misfit_q;
   logic       safe1_valid_q, safe1_error_q;   // told_o
   logic       safe2_valid_q, safe2_error_q;
 
@@ -75,6 +86,10 @@ module dsl_vertical (
   assign level        = byte_q[7];
   assign crc16_part   = answer_i.place >= CRC_PLACE;
   assign crc5_part    = answer_i.number == LOW_WORD && bit_q >= CRC5_BIT;
+  // RX1 begins with bit 39. Those above the position are 0, or with a sign all as the sign is.
+  assign number       = {1'b0, answer_i.place, bit_q} + {1'b0, width_i} + {6'd0, !signed_i};
+  assign above        = shift_q && vertical && !first && number < ABOVE;
+  assign top          = {answer_i.place, bit_q} == {3'd1, 3'd0};
 
   enc_crc #(.Free(1'b0)) u_crc1 (
     .clk_i,
@@ -136,7 +151,8 @@ module dsl_vertical (
       {code1_q, mark1_q, crc1_q} <= '0;
       {code2_q, mark2_q, crc2_q} <= '0;
       {event1_q, event2_q}       <= '0;
-      bad_q                      <= 1'b0;
+      {bad_q, marked_q}          <= '0;
+      {wide1_q, before_q}        <= '0;
     end else begin
       if (answer_i.valid && vertical) begin
         if (answer_i.word.error) code1_q <= 1'b1;
@@ -151,18 +167,22 @@ module dsl_vertical (
       end
       if (answer_i.valid && acceleration) begin
         if (answer_i.word.error || (quirks_i.strict_code && mark)) bad_q <= 1'b1;
+        if (mark && answer_i.word.data == MARKER)                  marked_q <= 1'b1;
       end
       if (shift_q && crc16_part) begin
         if (vertical  && top1 == (level ^ last ^ 1'b1)) crc1_q <= 1'b1;
         if (secondary && top2 == (level ^ last ^ 1'b1)) crc2_q <= 1'b1;
       end
       if (shift_q && crc5_part && top5 == level) bad_q <= 1'b1;
+      if (shift_q && vertical) before_q <= level;
+      if (above && level != (top ? signed_i && level : before_q)) wide1_q <= 1'b1;
       if (whole) begin
         {code1_q, mark1_q, crc1_q} <= '0;
+        wide1_q                    <= 1'b0;
         {code2_q, mark2_q, crc2_q} <= '0;
       end
       // The first word of the next frame comes before the acceleration.
-      if (answer_i.valid && vertical) bad_q <= 1'b0;
+      if (answer_i.valid && vertical) {bad_q, marked_q} <= '0;
     end
   end
 
@@ -170,6 +190,7 @@ module dsl_vertical (
     if (!rst_ni) begin
       missing_q                      <= '0;
       {error1_q, good1_q, error2_q}  <= '0;
+      misfit_q                       <= 1'b0;
       {safe1_valid_q, safe1_error_q} <= '0;
       {safe2_valid_q, safe2_error_q} <= '0;
     end else if (answer_i.begins) begin
@@ -181,6 +202,7 @@ module dsl_vertical (
       error1_q  <= event1_q || (last && !code1_q && crc1_q);
       good1_q   <= last && !code1_q && !crc1_q;
       error2_q  <= event2_q || (last && !code2_q && crc2_q && !firmware);
+      misfit_q  <= last && !code1_q && !crc1_q && !mark1_q && wide1_q && quirks_i.strict_id;
       if (last) begin
         safe1_valid_q <= !code1_q && !crc1_q && !mark1_q;
         safe1_error_q <= code1_q || crc1_q;
@@ -193,13 +215,15 @@ module dsl_vertical (
   assign verdict_o.safe1_error = error1_q;
   assign verdict_o.safe1_good  = good1_q;
   assign verdict_o.safe2_error = error2_q;
-  assign verdict_o.missing     = missing_q >= limit_i;
+  assign verdict_o.misfit      = misfit_q;
+  assign verdict_o.missing     = missing_q >= limit_i && missing_q != 5'd0;
 
-  assign told_o.acceleration_good = !bad_q;
-  assign told_o.missing           = missing_q;
-  assign told_o.safe1_valid       = safe1_valid_q;
-  assign told_o.safe1_error       = safe1_error_q;
-  assign told_o.safe2_valid       = safe2_valid_q;
-  assign told_o.safe2_error       = safe2_error_q;
+  assign told_o.acceleration_good   = !bad_q;
+  assign told_o.acceleration_marked = marked_q;
+  assign told_o.missing             = missing_q;
+  assign told_o.safe1_valid         = safe1_valid_q;
+  assign told_o.safe1_error         = safe1_error_q;
+  assign told_o.safe2_valid         = safe2_valid_q;
+  assign told_o.safe2_error         = safe2_error_q;
 
 endmodule

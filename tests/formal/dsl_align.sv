@@ -3,14 +3,18 @@
 //
 // The alignment of dsl_position, over its whole program with any numbers in its memory: which states
 // follow one another, and that the position becomes certain only at the end of a vertical frame with
-// a good safe position 1. The bench gives frames at any time, but what a frame tells stays as it is
-// from its end to tell_o, as the next frame is far away.
+// a good safe position 1. What a frame tells stays as it is from its end to tell_o.
+//
+// The acceleration of a frame comes when the program waits, and its end when the program works on it:
+// that is assumed, not proved, as it is a matter of clocks. Numbers decide how many rows a frame
+// takes: DslPositionBlock.AtLineSpeed_EachFrameHasItsRecord counts them on the longest and the
+// shortest line. A frame that ends earlier is left out (dsl_position, Misuse).
 //
 // The induction needs the row that stands at each step, and that two decisions of the program still
 // hold where it relies on them.
 //
-// claim: POS is 1 after a missing acceleration, and falls only at the end of a vertical frame with a good safe position 1, after the phases in their order or after
-//   one loss; it is 1 without a link; the program never leaves its rows
+// claim: POS is 1 after a missing acceleration, which opens a repair only if the encoder has not marked it, and falls only at the end of a vertical frame with a good safe position 1, after the phases in their order or after
+//   one loss; it is 1 without a link; the program never leaves its rows, if each frame finds it waiting
 // clocks: one
 // depth: 30
 // cover: 6
@@ -28,6 +32,7 @@
 // mutation: dsl/dsl_program.sv | row = set(SECOND, ENDED); | row = set(THIRD, ENDED);
 // mutation: dsl/dsl_program.sv | row = set(LOST, ADD); | row = set(ALIGNED, ADD);
 // mutation: dsl/dsl_position.sv | if (!answer_i.linked) align_q | if (answer_i.begins) align_q
+// mutation: dsl/dsl_position.sv | quirks_i.recover && !told_i.acceleration_marked; | quirks_i.recover;
 // mutation: dsl/dsl_program.sv | row = jump_if(ALWAYS, STATUS); | row = jump_if(ALWAYS, STATUS + 8'd80);
 
 module proof (
@@ -42,7 +47,7 @@ module proof (
   logic lost, tell;
   dsl_position u_dut (
     .clk_i, .rst_ni, .quirks_i, .answer_i, .told_i,
-    .status_i         (88'd0),
+    .status_i         (94'd0),
     .time_i,
     .time_next_o      (),
     .lost_o           (lost),
@@ -62,17 +67,18 @@ module proof (
   always @(posedge clk_i) started <= 1'b1;
 
   // From the end of a running frame to its record.
-  logic       busy_q, linked_q, new1_q, good_q, vertical_q;
+  logic       busy_q, linked_q, new1_q, good_q, marked_q, vertical_q;
   logic       lost_q = 1'b1;
   always @(posedge clk_i) lost_q <= lost;
   logic [2:0] align_q;
   always @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) {busy_q, linked_q, new1_q, good_q, vertical_q, align_q} <= '0;
+    if (!rst_ni) {busy_q, linked_q, new1_q, good_q, marked_q, vertical_q, align_q} <= '0;
     else begin
       busy_q     <= (busy_q || (answer_i.ends && frame)) && !tell;
       linked_q   <= answer_i.linked;
       new1_q     <= told_i.safe1_valid;
       good_q     <= told_i.acceleration_good;
+      marked_q   <= told_i.acceleration_marked;
       vertical_q <= vertical;
       align_q    <= align;
     end
@@ -81,7 +87,7 @@ module proof (
   // Where sections of dsl_program begin.
   localparam logic [7:0] BEGIN = 8'd34, MISSED = 8'd61, ADD = 8'd66, WAIT = 8'd84, SAFE = 8'd86, PLACE = 8'd103,
                          PAUSE = 8'd106, WITHOUT = 8'd107, KEEP = 8'd110, OFF = 8'd113, CORRECT = 8'd119,
-                         MEND = 8'd128, ENDED = 8'd162, STATUS = 8'd170, IDLE = 8'd172;
+                         MEND = 8'd128, ENDED = 8'd162, STATUS = 8'd170, IDLE = 8'd172, CLOSE = 8'd176;
   localparam logic [2:0] FIRST = 3'd0, SECOND = 3'd1, THIRD = 3'd2, FOURTH = 3'd3, ALIGNED = 3'd4,
                          LOST = 3'd5, MENDING = 3'd6;
 
@@ -91,7 +97,7 @@ module proof (
   always @* begin
     assume (rst_ni == started);
     if (busy_q) assume (!answer_i.ends && told_i.safe1_valid == new1_q);
-    if (step >= BEGIN && step <= WAIT) assume (told_i.acceleration_good == good_q);
+    if (step >= BEGIN && step <= WAIT) assume (told_i.acceleration_good == good_q && told_i.acceleration_marked == marked_q);
     if (works || busy_q || frame) assume (!(answer_i.valid && answer_i.number == 3'd4));
     // The end of a frame comes long after its acceleration.
     if (answer_i.ends) assume (!answer_i.valid && (!frame || works));
@@ -130,7 +136,8 @@ module proof (
     Lost_A:    assert (lost || align == ALIGNED);
     Told_A:    assert (lost || !lost_q || tell);
     if (step >= ADD && step <= WAIT && !good_q) Missing_A: assert (align != ALIGNED);
-    Step_A:    assert (step < IDLE + 8'd3);
+    Step_A:    assert (step < CLOSE + 8'd12);
+    Repair_A:  assert (align != LOST || align_q == LOST || !marked_q);
     Range_A:   assert (align <= MENDING && stale <= 2'd3);
     // For the induction.
     Row_A:     assert (!ready || row == now);
@@ -139,6 +146,7 @@ module proof (
     Busy_A:    assert (!works || step <= WAIT || (busy_q && !frame));
     Idle_A:    assert (!busy_q || (step >= BEGIN && step < IDLE && !frame));
     Aligned_A: assert (!linked_q || !(step == MISSED + 8'd3 || step == MISSED + 8'd4) || align == ALIGNED);
+    if (step >= MISSED + 8'd1 && step < ADD && step != MISSED + 8'd2) Unmarked_A: assert (!marked_q);
     if (step >= SAFE && step < ENDED) Vertical_A: assert (vertical);
     if ((step > SAFE + 8'd7 && step < WITHOUT) || (step >= OFF && step < ENDED)) New_A: assert (told_i.safe1_valid);
     if (linked_q) begin

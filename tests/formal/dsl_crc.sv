@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Checks of dsl_vertical. The bench sends frames as the line does: six words and an end, ten clocks
-// or more apart, with any bytes, errors and special characters; in running frames the place counts.
+// Checks of dsl_vertical. The bench sends frames as the line does: six words and an end, nine clocks
+// or more apart, with any bytes, errors and special characters; in running frames the place counts. A
+// link begins four clocks or more behind the end of a frame.
 // It divides by the polynomials bit by bit, as the definition says, and compares whole bytes with
 // the remainder: byte 6 with its upper half, byte 7 with the inverse of its lower one, the last five
 // bits of the acceleration with the inverse of theirs. Words of the other channel leave a remainder.
@@ -12,7 +13,9 @@
 // claim: a safe channel is good if and only if no word had an error of its code, no special character but K28 came, and
 //   bytes 6 and 7 are the remainder of bytes 0 to 5 by x^16 + x^15 + x^12 + x^7 + x^6 + x^4 + x^3 + 1, the last one
 //   inverted; an acceleration if and only if its words are good and its five bits are the inverted remainder of the eleven
-//   others by x^5 + x^2 + 1; the count of missing ones never passes its limit
+//   others by x^5 + x^2 + 1; the count of missing ones never passes its limit, 0 being as 1; a good safe position 1 is a
+//   misfit if and only if a bit above the width differs from its highest bit, or without a sign from 0; K29.7 in the
+//   acceleration, and nothing else, marks it
 // clocks: one
 // depth: 30
 // cover: 70
@@ -30,6 +33,9 @@
 // look: mark2 = u_dut.mark2_q
 // look: crc2 = u_dut.crc2_q
 // look: bad = u_dut.bad_q
+// look: marked = u_dut.marked_q
+// look: wide = u_dut.wide1_q
+// look: before = u_dut.before_q
 // look: event1 = u_dut.event1_q
 // look: event2 = u_dut.event2_q
 // mutation: dsl/dsl_vertical.sv | localparam logic [7:0] POLY5       = 8'h05; | localparam logic [7:0] POLY5       = 8'h03;
@@ -42,6 +48,11 @@
 // mutation: dsl/dsl_vertical.sv | whole        = answer_i.ends && (last || !answer_i.running) | whole        = answer_i.ends && last
 // mutation: dsl/dsl_vertical.sv | safe1_valid_q <= !code1_q && !crc1_q && !mark1_q; | safe1_valid_q <= !code1_q && !crc1_q;
 // mutation: dsl/dsl_vertical.sv | bad_q ? missing_q + 5'd1 : 5'd0; | bad_q ? missing_q + 5'd1 : missing_q;
+// mutation: dsl/dsl_vertical.sv | ABOVE       = 7'd41; | ABOVE       = 7'd42;
+// mutation: dsl/dsl_vertical.sv | (top ? signed_i && level : before_q) | (top ? level : before_q)
+// mutation: dsl/dsl_vertical.sv | if (shift_q && vertical) before_q <= level; | if (shift_q) before_q <= level;
+// mutation: dsl/dsl_vertical.sv | && missing_q != 5'd0; | ;
+// mutation: dsl/dsl_vertical.sv | if (mark && answer_i.word.data == MARKER) | if (answer_i.word.data == MARKER)
 // mutation: dsl/dsl_vertical.sv | event1_q <= answer_i.word.error && !code1_q; | event1_q <= answer_i.word.error;
 
 module proof (
@@ -58,11 +69,16 @@ module proof (
   (* anyconst *) logic       strict;
   (* anyconst *) logic       firmware;
   (* anyconst *) logic [4:0] limit;
+  (* anyconst *) logic       strict_id;
+  (* anyconst *) logic       has_sign;
+  (* anyconst *) logic [5:0] less8;      // width of the position
 
   // ---- The line ----------------------------------------------------------------------------------
 
+  localparam logic [3:0] FAR = 4'd9;
+
   logic       started = 1'b0;
-  logic [3:0] gap_q;         // clocks since the last word or end, up to 10
+  logic [3:0] gap_q;         // clocks since the last word or end, up to 9
   logic [2:0] word_q;        // number of the next one; 6: the end
   logic [2:0] last_q;        // number of the last one
   logic       running_q;
@@ -77,13 +93,14 @@ module proof (
   dsl_pkg::verdict_t verdict;
   dsl_pkg::told_t    told;
 
-  assign valid  = next_i && gap_q == 4'd10 && word_q != 3'd6;
-  assign ends   = next_i && gap_q == 4'd10 && word_q == 3'd6;
-  assign begins = begins_i && gap_q == 4'd10 && word_q == 3'd0 && !valid && !running_q;
+  assign valid  = next_i && gap_q == FAR && word_q != 3'd6;
+  assign ends   = next_i && gap_q == FAR && word_q == 3'd6;
+  assign begins = begins_i && gap_q >= 4'd4 && word_q == 3'd0 && !valid && !running_q;
 
   always @* begin
     quirks             = '0;
     quirks.strict_code = strict;
+    quirks.strict_id   = strict_id;
     quirks.rules       = firmware ? dsl_pkg::FIRMWARE : dsl_pkg::SICK;
     answer             = '0;
     answer.linked      = 1'b1;
@@ -97,13 +114,15 @@ module proof (
     answer.word.special = valid ? special_i : special_q;
     answer.ends        = ends;
     assume (rst_ni == started);
-    assume (limit != 5'd0);
+    assume (less8 <= 6'd32);
   end
 
   dsl_vertical u_dut (
     .clk_i, .rst_ni,
     .quirks_i  (quirks),
     .limit_i   (limit),
+    .width_i   (less8),
+    .signed_i  (has_sign),
     .answer_i  (answer),
     .verdict_o (verdict),
     .told_o    (told)
@@ -111,11 +130,11 @@ module proof (
 
   always @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      {gap_q, word_q, last_q, running_q, place_q} <= {4'd10, 3'd0, 3'd0, 1'b0, 3'd0};
+      {gap_q, word_q, last_q, running_q, place_q} <= {FAR, 3'd0, 3'd0, 1'b0, 3'd0};
       {data_q, error_q, special_q, stops_q}       <= '0;
     end else begin
-      if (valid || ends)       gap_q <= 4'd1;
-      else if (gap_q != 4'd10) gap_q <= gap_q + 4'd1;
+      if (valid || ends)     gap_q <= 4'd1;
+      else if (gap_q != FAR) gap_q <= gap_q + 4'd1;
       if (valid) begin
         {data_q, error_q, special_q} <= {data_i, error_i, special_i};
         word_q <= word_q + 3'd1;
@@ -151,7 +170,12 @@ module proof (
   logic        e1_q, e2_q;     // of this frame
   logic [4:0]  count_q;        // missing
   logic        v1_q, v2_q, x1_q, x2_q, s1_q, g1_q, s2_q;
-  logic        mark, acceleration_wrong, missing_next;
+  logic        mark, missing_next;
+  logic        sign_q;         // bit 39 of safe position 1
+  logic        above_q;        // a bit above the width is wrong
+  logic        fits_not_q;     // verdict.misfit
+  logic        marked_q;
+  logic [4:0]  most;           // missing ones
   logic [7:0]  want1, want2;
 
   assign mark  = special_i && !error_i && data_i[4:0] != 5'd28;
@@ -171,7 +195,20 @@ module proof (
     end
   end
 
-  assign missing_next = running_q && (bad_word_q ? count_q + 5'd1 : 5'd0) >= limit;
+  assign most         = limit == 5'd0 ? 5'd1 : limit;
+  assign missing_next = running_q && (bad_word_q ? count_q + 5'd1 : 5'd0) >= most;
+
+  // Bits of this byte of safe position 1, and what they have to be where the position has none.
+  logic [5:0] bit_number;
+  logic       should, wrong_above;
+  always @* begin
+    wrong_above = 1'b0;
+    should      = has_sign && (place_q == 3'd1 ? data_i[7] : sign_q);
+    for (int i = 7; i >= 0; i--) begin
+      bit_number = 6'd40 - {place_q, 3'd0} + 6'(i);
+      if (bit_number >= less8 + 6'd8 - {5'd0, has_sign} && data_i[i] != should) wrong_above = 1'b1;
+    end
+  end
 
   always @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -179,6 +216,7 @@ module proof (
       {c1_q, c2_q, m1_q, m2_q, bad_word_q}          <= '0;
       {e1_q, e2_q, count_q, high_seen_q}            <= '0;
       {v1_q, v2_q, x1_q, x2_q, s1_q, g1_q, s2_q}    <= '0;
+      {sign_q, above_q, fits_not_q, marked_q}       <= '0;
     end else begin
       if (valid && word_q == 3'd0) begin
         if (place_q < 3'd6)       r1_q <= t1;
@@ -186,7 +224,9 @@ module proof (
         e1_q <= error_i && !c1_q;
         if (error_i) c1_q <= 1'b1;
         if (mark)    m1_q <= 1'b1;
-        bad_word_q <= 1'b0;
+        {bad_word_q, marked_q} <= '0;
+        if (place_q == 3'd1) sign_q <= data_i[7];
+        if (place_q >= 3'd1 && place_q <= 3'd5 && wrong_above) above_q <= 1'b1;
       end
       if (valid && word_q == 3'd5) begin
         if (place_q < 3'd6)       r2_q <= t2;
@@ -199,11 +239,13 @@ module proof (
         r5_q <= t5;
         if (word_q == 3'd3) high_seen_q <= data_i != 8'd0;
         if (error_i || (strict && mark))                     bad_word_q <= 1'b1;
+        if (special_i && !error_i && data_i == 8'hFD)        marked_q <= 1'b1;
         if (word_q == 3'd4 && data_i[4:0] != ~t5)            bad_word_q <= 1'b1;
       end
       if (ends && (!running_q || place_q == 3'd7)) begin
         {r1_q, r2_q, w1_q, w2_q} <= '0;
         {c1_q, c2_q, m1_q, m2_q} <= '0;
+        above_q                  <= 1'b0;
       end
       if (begins) begin
         {count_q, v1_q, v2_q, x1_q, x2_q} <= '0;
@@ -211,6 +253,7 @@ module proof (
         count_q <= bad_word_q ? count_q + 5'd1 : 5'd0;
         s1_q    <= e1_q || (place_q == 3'd7 && !c1_q && w1_q);
         g1_q    <= place_q == 3'd7 && !c1_q && !w1_q;
+        fits_not_q <= strict_id && place_q == 3'd7 && !c1_q && !w1_q && !m1_q && above_q;
         s2_q    <= e2_q || (place_q == 3'd7 && !c2_q && w2_q && !firmware);
         if (place_q == 3'd7) begin
           {v1_q, x1_q} <= {!c1_q && !w1_q && !m1_q, c1_q || w1_q};
@@ -225,10 +268,12 @@ module proof (
     Valid2_A:  assert (told.safe2_valid == v2_q && told.safe2_error == x2_q);
     Verdict_A: assert (verdict.safe1_error == s1_q && verdict.safe1_good == g1_q
                        && verdict.safe2_error == s2_q);
-    Missing_A: assert (told.missing == count_q && verdict.missing == (count_q >= limit));
-    Limit_A:   assert (count_q <= limit);
-    Below_A:   assert (stops_q || count_q < limit);
-    if (gap_q == 4'd10 && word_q == 3'd5) Good_A: assert (told.acceleration_good == !bad_word_q);
+    Missing_A: assert (told.missing == count_q && verdict.missing == (count_q >= most));
+    Limit_A:   assert (count_q <= most);
+    Below_A:   assert (stops_q || count_q < most);
+    Misfit_A:  assert (verdict.misfit == fits_not_q);
+    if (gap_q == FAR && word_q == 3'd5) Good_A: assert (told.acceleration_good == !bad_word_q);
+    if (word_q >= 3'd5) Marked_A: assert (told.acceleration_marked == marked_q);
   end
 
   // ---- For the induction -------------------------------------------------------------------------
@@ -237,6 +282,7 @@ module proof (
   wire [7:0]  byte_in;
   wire [2:0]  bit_in;
   wire        shift, code1, mark1, crc1, code2, mark2, crc2, bad, event1, event2;
+  wire        marked, wide, before;
 
   // Bits of the last word that are still to come stand in byte_in; the remainders with all of them are
   // those of the bench.
@@ -267,17 +313,38 @@ module proof (
     end
   end
 
+  // Bits of safe position 1: {place, bit} is 8 for bit 39, and less than 49 - width above the position.
+  logic [5:0] at, seen;        // of a bit, of the last one that has been compared
+  logic       nw, previous;
+  always @* begin
+    nw       = wide;
+    previous = before;
+    for (int i = 0; i < 8; i++) if (i < left && last_q == 3'd0) begin
+      at = {place_q, bit_in + 3'(i)};
+      if (place_q != 3'd0 && {1'b0, at} + less8 + !has_sign < 7'd41
+          && byte_in[7 - i] != (at == 6'd8 ? has_sign && byte_in[7 - i] : previous)) nw = 1'b1;
+      previous = byte_in[7 - i];
+    end
+    seen = last_q == 3'd0 && shift ? {place_q, bit_in} - 6'd1
+         : {place_q, 3'd0} + (word_q != 3'd0 ? 6'd7 : 6'd63);
+  end
+
   // A remainder that has been compared is shifted out: byte 6, byte 7.
   logic       whole1, whole2;
   assign whole1 = word_q != 3'd0;                  // this frame's byte has come
   assign whole2 = word_q == 3'd6;
 
   always @* if (started) begin
-    Gap_A:    assert (gap_q <= 4'd10 && word_q <= 3'd6 && last_q <= 3'd5);
+    Gap_A:    assert (gap_q >= 4'd1 && gap_q <= FAR && word_q <= 3'd6 && last_q <= 3'd5);
     Order_A:  assert (word_q == 3'd0 || last_q == word_q - 3'd1);
     Count_A:  assert (!shift || (gap_q >= 4'd1 && {1'b0, bit_in} + 4'd1 == gap_q && word_q != 3'd0));
     Rest_A:   assert (shift || bit_in == 3'd0);
-    Busy_A:   assert (word_q == 3'd0 || shift || gap_q >= 4'd9);
+    Busy_A:   assert (word_q == 3'd0 || shift || gap_q == FAR);
+    Wide_A:   assert (nw == above_q);
+    Mark_A:   assert (marked == marked_q);
+    if (running_q && place_q == 3'd1 && last_q == 3'd0 && shift && bit_in == 3'd0) First_A: assert (byte_in[7] == sign_q);
+    if (running_q && seen >= 6'd8 && {1'b0, seen} + less8 + !has_sign < 7'd41)
+      Before_A: assert (wide || before == (has_sign && sign_q));
     Place_A:  assert (running_q || place_q == 3'd0);
     Stops_A:  assert (!(stops_q && running_q));
     Code_A:   assert (code1 == c1_q && mark1 == m1_q && code2 == c2_q && mark2 == m2_q);
@@ -295,7 +362,7 @@ module proof (
 
   always @(posedge clk_i) if (started && rst_ni) begin
     Word_C: cover (word_q == 3'd1 && rem1 != 16'd0 && c1_q);
-    Good_C: cover (gap_q == 4'd10 && word_q == 3'd6 && !bad_word_q && high_seen_q);
+    Good_C: cover (gap_q == FAR && word_q == 3'd6 && !bad_word_q && high_seen_q);
   end
 
 endmodule

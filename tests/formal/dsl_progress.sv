@@ -32,7 +32,7 @@ module proof (
   input logic             valid_i,
   input logic [2:0]       number_i,
   input dsl_pkg::word_t   word_i,
-  input logic             judged_i, good_i, missing_i
+  input logic             judged_i, good_i, missing_i, misfit_i
 );
 
   localparam logic [3:0] GAP = 4'd0, RESET = 4'd1, SYNC = 4'd2, START = 4'd3, LEARN = 4'd4,
@@ -43,8 +43,8 @@ module proof (
   dsl_link u_dut (
     .clk_i, .rst_ni, .quirks_i, .hold_i (1'b0), .begin_i, .plan_o (), .gap_o (), .forget_o (),
     .purpose_o (), .done_i, .match_i, .valid_i, .number_i, .word_i, .judged_i, .good_i,
-    .missing_i, .start_o (), .linked_o (), .begins_o (), .running_o (),
-    .place_o (), .state_o (), .reason_o (reason), .resets_o (), .identity_o ()
+    .missing_i, .misfit_i, .start_o (), .linked_o (), .begins_o (), .running_o (),
+    .place_o (), .state_o (), .reason_o (reason), .resets_o (), .identity_o (), .width_o ()
   );
 
   wire [3:0] dut_state;

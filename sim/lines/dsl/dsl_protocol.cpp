@@ -30,7 +30,7 @@ void know_keys(TomlReader& reader) {
                "sync_frames",     "vsync_after",       "msync",         "first",
                "vsync_phase",     "start_disparity",   "direction_bit", "lead_ns",
                "lead_level",      "status2_k28",       "latency_ns",    "clock_ppm",
-               "broken_identity", "wrong_pattern"});
+               "broken_identity", "wrong_pattern",     "identity_flip", "vertical_k28"});
 }
 
 void read_number(TomlReader& reader, const char* key, unsigned least, unsigned most,
@@ -155,6 +155,8 @@ void read(TomlReader& reader, DeviceConfig& device, std::string& file) {
   config.clock_ppm = reader.number("clock_ppm", -kMaxPpm, kMaxPpm).value_or(0);
   config.broken_identity = reader.boolean("broken_identity").value_or(false);
   read_number(reader, "wrong_pattern", 0, 34, config.wrong_pattern);
+  read_number(reader, "identity_flip", 0, 0xFFFFF, config.identity_flip);
+  config.vertical_k28 = reader.boolean("vertical_k28").value_or(false);
 }
 
 }  // namespace

@@ -361,9 +361,10 @@ std::uint64_t with_direction(std::uint64_t five, std::optional<bool> direction, 
 }  // namespace
 
 std::uint64_t DslSlave::identity() const {
-  const unsigned id = config_.index << 12U | (config_.is_signed ? 1U << 10U : 0U) |
-                      (config_.data_bits - config_.acceleration_bits) << 4U |
-                      (config_.acceleration_bits - 8);
+  const unsigned id =
+      (config_.index << 12U | (config_.is_signed ? 1U << 10U : 0U) |
+       (config_.data_bits - config_.acceleration_bits) << 4U | (config_.acceleration_bits - 8)) ^
+      config_.identity_flip;
   dsl::Coder coder(config_.positive);
   const auto low = static_cast<std::uint8_t>(id);
   const auto high = static_cast<std::uint8_t>(id >> 8U);
@@ -420,7 +421,11 @@ std::uint64_t DslSlave::data_frame() {
   dsl::Coder coder(config_.positive);
   const bool marked1 = safe1_.marked && place_ == 1;
   const bool marked2 = safe2_.marked && place_ == 1;
-  const unsigned a = marked1 ? coder.special(kMarker1) : coder.data(safe1_.bytes[place_]);
+  const std::uint8_t first = safe1_.bytes[place_];
+  const bool special1 = config_.vertical_k28 && (first & 0x1FU) == kStatus2;
+  const unsigned a = marked1    ? coder.special(kMarker1)
+                     : special1 ? coder.special(first)
+                                : coder.data(first);
   const auto s_par = static_cast<std::uint8_t>((vsync ? kVsync : 0U) | config_.s_par_bits << 5U |
                                                (running ? kIdleSymbol : kInitSymbol));
   const unsigned b = coder.data(s_par);

@@ -64,6 +64,8 @@ struct DslSlaveConfig : SensorConfig {
   Time latency = 95 * kPsPerNs;  // from the end of SWITCH to the first edge
   double clock_ppm = 0;          // of its own clock
   bool broken_identity = false;  // its two copies differ
+  unsigned identity_flip = 0;    // bits of the identity that are wrong in both copies
+  bool vertical_k28 = false;     // bytes of safe channel 1 that end with 28 are special characters
   unsigned wrong_pattern = 0;    // training frame whose test pattern is wrong once; 0: none
 
   std::unique_ptr<Slave> make_slave(std::uint64_t seed) const override;

@@ -27,6 +27,8 @@ LinkRules rules_of(const ChipConfig& chip) {
   rules.start_blocks = get(quirks, kQuirkBlocks);
   rules.vsync_limit = get(quirks, kQuirkVsync);
   rules.stale_limit = get(quirks, kQuirkStale);
+  rules.strict_id = get(quirks, kQuirkId) != 0;
+  rules.sdk_map = (quirks & kSdkMap) != 0;
   return rules;
 }
 
@@ -45,6 +47,7 @@ void read_rules(TomlReader& reader, ChipConfig& chip) {
   };
   flag("RECOVER", kQuirkRecover);
   flag("STRICT_CODE", kQuirkCheck);
+  flag("STRICT_ID", kQuirkId);
   flag("RSSI_TABLE", kQuirkTable);
   number("SAMPLE", kQuirkSample, 2);
   if (const auto rules = reader.choice("RULES", {"document", "sick", "firmware"})) {

@@ -23,7 +23,7 @@ inline constexpr std::int64_t kMinClkHz = kClkHz - kClkHz / 1000;  // 1000 ppm
 inline constexpr std::int64_t kMaxClkHz = kClkHz + kClkHz / 1000;
 
 // The map of the SDK, which only a master with registers has.
-inline constexpr unsigned kSdkMap = 1U << 26U;
+inline constexpr unsigned kSdkMap = 1U << 27U;
 
 struct QuirkField {
   unsigned lsb;
@@ -36,8 +36,9 @@ inline constexpr QuirkField kQuirkRxStart{15, 4};
 inline constexpr QuirkField kQuirkTable{19, 1};
 inline constexpr QuirkField kQuirkRules{20, 2};
 inline constexpr QuirkField kQuirkSample{22, 2};
-inline constexpr QuirkField kQuirkCheck{24, 1};
-inline constexpr QuirkField kQuirkRecover{25, 1};
+inline constexpr QuirkField kQuirkId{24, 1};
+inline constexpr QuirkField kQuirkCheck{25, 1};
+inline constexpr QuirkField kQuirkRecover{26, 1};
 static_assert(kSdkMap == 2U << kQuirkRecover.lsb);
 
 constexpr void put(unsigned& quirks, QuirkField field, unsigned value) {
@@ -45,7 +46,7 @@ constexpr void put(unsigned& quirks, QuirkField field, unsigned value) {
 }
 
 constexpr unsigned packed(const LinkRules& rules) {
-  unsigned quirks = 0;
+  unsigned quirks = rules.sdk_map ? kSdkMap : 0;
   put(quirks, kQuirkSample, static_cast<unsigned>(rules.sample));
   put(quirks, kQuirkCheck, rules.check == CodeCheck::kStrict ? 1 : 0);
   put(quirks, kQuirkRules, static_cast<unsigned>(rules.quality));
@@ -55,6 +56,7 @@ constexpr unsigned packed(const LinkRules& rules) {
   put(quirks, kQuirkBlocks, rules.start_blocks);
   put(quirks, kQuirkVsync, rules.vsync_limit);
   put(quirks, kQuirkStale, rules.stale_limit);
+  put(quirks, kQuirkId, rules.strict_id ? 1 : 0);
   return quirks;
 }
 

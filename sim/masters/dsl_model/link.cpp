@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/masters/dsl_model/link.hpp"
 
+#include <algorithm>
+
 namespace mb4::sim::dsl_model {
 namespace {
 
@@ -14,9 +16,11 @@ constexpr unsigned kVertical = SafeChannels::kFrames;
 constexpr unsigned kLowRssi = 2;
 constexpr std::uint8_t kVsync = 0x80;  // in S_PAR
 constexpr unsigned kMaxPositionBits = 40;
+constexpr unsigned kMore = 8;             // in bits 19 to 16 of the identity
+constexpr std::uint32_t kSigned = 0x400;  // in the identity
 constexpr unsigned kMaxAccelerationBits = 11;
 
-// A special character where only `allowed` may stand. K28.x is accepted as a byte.
+// A special character where only `allowed` may stand.
 bool unexpected(const Word& word, std::uint8_t allowed) {
   return word.special && !word.error && word.byte != allowed;
 }
@@ -41,16 +45,18 @@ const char* name_of(Restart reason) {
   return kNames[static_cast<unsigned>(reason)];
 }
 
-AnswerWords words_of(Answer answer, CodeCheck check) {
-  const auto word = [&](unsigned lowest, Channel channel = Channel::kPlain) {
+// In the personality of the SDK K28 is repaired in the second safe channel alone.
+AnswerWords words_of(Answer answer, CodeCheck check, bool sdk_map) {
+  const Channel most = sdk_map ? Channel::kAcceleration : Channel::kPlain;
+  const auto in = [&](unsigned lowest, Channel channel) {
     return decode(static_cast<unsigned>(answer >> lowest), check, channel);
   };
-  return {.vertical = word(51),
-          .parameter = word(41),
-          .pipeline = word(31),
-          .acceleration_high = word(21, Channel::kAcceleration),
-          .acceleration_low = word(11, Channel::kAcceleration),
-          .secondary = word(0, Channel::kSecond),
+  return {.vertical = in(51, most),
+          .parameter = in(41, most),
+          .pipeline = in(31, most),
+          .acceleration_high = in(21, Channel::kAcceleration),
+          .acceleration_low = in(11, Channel::kAcceleration),
+          .secondary = in(0, Channel::kSecond),
           .direction = (answer >> 10U & 1U) != 0};
 }
 
@@ -172,6 +178,7 @@ void Link::restart(Restart reason) {
   end_ = plan_.bits() * kTicksPerBit;
   frame_.linked = false;
   frame_.lost = true;
+  frame_.safe1.valid = frame_.safe2.valid = false;
   frame_.restart = reason;
 }
 
@@ -183,7 +190,7 @@ void Link::judge() {
   frame_.number = 0;
   frame_.sampled = began_ + plan_.sample_tick();
   frame_.state = state_;
-  frame_.safe_new = false;
+  frame_.safe_new = frame_.safe1_new = false;
   frame_.restart = Restart::kNone;
   switch (state_) {
     case LinkState::kStart:
@@ -196,9 +203,10 @@ void Link::judge() {
       if (!receiver_.matches()) restart(Restart::kCheck);
       break;
     default:
-      frame_.answer = receiver_.answer();
+      frame_.answer = receiver_.answer(state_ != LinkState::kIdRequest);
       frame_.rssi = receiver_.rssi();
-      frame_.words = words_of(frame_.answer, rules_.check);
+      frame_.words = words_of(frame_.answer, rules_.check, rules_.sdk_map);
+      count_illegal();
       if (state_ == LinkState::kIdRequest) take_identity();
       if (state_ == LinkState::kWaitVsync) {
         wait_for_vsync();
@@ -211,6 +219,14 @@ void Link::judge() {
   if (listener_ != nullptr) listener_->answered(frame_);
 }
 
+void Link::count_illegal() {
+  const AnswerWords& words = frame_.words;
+  for (const Word* word : {&words.vertical, &words.parameter, &words.pipeline,
+                           &words.acceleration_high, &words.acceleration_low, &words.secondary}) {
+    if (word->only_strict) ++illegal_;
+  }
+}
+
 // Errors of the code are not looked at: the bytes stand there twice.
 void Link::take_identity() {
   const AnswerWords& words = frame_.words;
@@ -221,7 +237,9 @@ void Link::take_identity() {
   const bool twice = words.vertical.byte == words.acceleration_low.byte &&
                      words.parameter.byte == words.acceleration_high.byte &&
                      words.pipeline.byte >> 4U == high;
-  if (!twice || acceleration_bits > kMaxAccelerationBits || position_bits_ > kMaxPositionBits) {
+  const bool more = rules_.strict_id && (high & kMore) != 0;
+  if (!twice || more || acceleration_bits > kMaxAccelerationBits ||
+      position_bits_ > kMaxPositionBits) {
     return restart(Restart::kIdentity);
   }
   frame_.linked = true;
@@ -248,11 +266,6 @@ void Link::run() {
   const AnswerWords& words = frame_.words;
   frame_.number = ++running_;
   frame_.place = place_;
-  for (const Word* word : {&words.vertical, &words.parameter, &words.pipeline,
-                           &words.acceleration_high, &words.acceleration_low, &words.secondary}) {
-    if (word->only_strict) ++illegal_;
-  }
-
   QualityEvents events;
   if (!words.parameter.error) {
     const bool vsync = (words.parameter.byte & kVsync) != 0;
@@ -267,15 +280,17 @@ void Link::run() {
   const Word& high = words.acceleration_high;
   const Word& low = words.acceleration_low;
   events.acceleration_error = high.error || low.error;
+  // With the strict check K28 is a byte like others.
   for (const Word* word : {&words.vertical, &high, &low}) {
-    if (unexpected(*word, kMarker1)) ++events.specials;
+    const bool byte = rules_.check == CodeCheck::kStrict && word->is_k28();
+    if (unexpected(*word, kMarker1) && !byte) ++events.specials;
   }
   if (words.parameter.special && !words.parameter.error) ++events.specials;
   if (unexpected(words.secondary, kMarker2) && !words.secondary.is_k28()) ++events.specials;
 
   const std::optional<int> acceleration = acceleration_in(words, rules_.check);
   frame_.acceleration_good = acceleration.has_value();
-  motion_.frame(acceleration);
+  motion_.frame(acceleration, high.is(kMarker1) || low.is(kMarker1));
   take_safe(events);
 
   frame_.position = motion_.position();
@@ -286,8 +301,11 @@ void Link::run() {
   place_ = (place_ + 1) % kVertical;
   if (!good) {
     restart(Restart::kQuality);
-  } else if (motion_.missing() >= rules_.acceleration_limit) {
+  } else if (motion_.missing() >= std::max(rules_.acceleration_limit, 1U)) {
     restart(Restart::kAcceleration);
+  } else if (rules_.strict_id && frame_.safe1_new &&
+             !fits(frame_.safe1.position, position_bits_, (identity_ & kSigned) != 0)) {
+    restart(Restart::kIdentity);
   }
 }
 
@@ -298,6 +316,7 @@ void Link::take_safe(QualityEvents& events) {
   frame_.safe1 = safe_.safe1();
   frame_.safe2 = safe_.safe2();
   if (!frame_.safe_new) return;
+  frame_.safe1_new = frame_.safe1.valid;
   motion_.vertical_end(frame_.safe1.valid ? std::optional(frame_.safe1.position) : std::nullopt);
   vertical_ = !vertical_;
 }

@@ -24,7 +24,9 @@ namespace mb4::sim::dsl_model {
 
 struct LinkRules {
   SampleRule sample = SampleRule::kTracking;
+  bool sdk_map = false;  // the personality of the SDK
   CodeCheck check = CodeCheck::kStrict;
+  bool strict_id = true;  // the identity is whole, and safe positions are as wide as it says
   QualityRules quality = QualityRules::kSick;
   bool rssi_table = false;
   bool recover = true;
@@ -32,7 +34,7 @@ struct LinkRules {
   unsigned start_blocks = 4;         // stuffing of START frames, 0 to 26
   unsigned vsync_limit = 64;         // frames without VSYNC after the training; 0: no limit
   unsigned stale_limit = 2;          // MotionRules
-  unsigned acceleration_limit = 31;  // words missing one after another
+  unsigned acceleration_limit = 31;  // words missing one after another; 0 is as 1
 };
 
 enum class LinkState { kGap, kReset, kSync, kStart, kLearn, kCheck, kIdRequest, kWaitVsync, kRun };
@@ -44,14 +46,14 @@ enum class Restart {
   kNotFound,  // START: no answer, or not where one fits
   kLearn,     // LEARN, CHECK: another pattern
   kCheck,
-  kIdentity,      // of the encoder: broken, or widths that cannot be
+  kIdentity,      // of the encoder: broken, or widths that cannot be, or that are not true
   kVsync,         // it did not come
   kQuality,       // too low
   kAcceleration,  // too many words missing
 };
 const char* name_of(Restart reason);
 
-// The seven words of an answer.
+// The six words of an answer, and the bit between the last two.
 struct AnswerWords {
   Word vertical;
   Word parameter;
@@ -61,7 +63,7 @@ struct AnswerWords {
   Word secondary;
   bool direction = false;
 };
-AnswerWords words_of(Answer answer, CodeCheck check);
+AnswerWords words_of(Answer answer, CodeCheck check, bool sdk_map = false);
 // The second difference of an answer; nothing if a word is wrong. The strict check refuses special
 // characters but K28.x, the published one looks at code errors and CRC5 alone.
 std::optional<int> acceleration_in(const AnswerWords& words, CodeCheck check);
@@ -72,7 +74,7 @@ struct LinkFrame {
   std::uint64_t sampled = 0;  // tick of the edge in SAMPLE
   LinkState state = LinkState::kGap;
   Answer answer = 0;
-  AnswerWords words;  // not in the training
+  AnswerWords words;  // of the identity and later frames
   bool acceleration_good = false;
   unsigned place = 0;  // in the vertical frame, 0 to 7
   std::uint64_t position = 0;
@@ -84,7 +86,8 @@ struct LinkFrame {
   unsigned rssi = 0;
   unsigned sample_place = 0;  // number of the sample of the first bit
   bool safe_new = false;      // safe1 and safe2 have been judged with this frame
-  SafeChannel safe1;
+  bool safe1_new = false;     // ... and safe1 was good
+  SafeChannel safe1;          // not valid without a link
   SafeChannel safe2;
   Restart restart = Restart::kNone;  // the frame ends the link
 };
@@ -151,6 +154,7 @@ class Link {
   void enter(LinkState state, unsigned frames);
   void step();
   void judge();
+  void count_illegal();
   void take_identity();
   void wait_for_vsync();
   void run();

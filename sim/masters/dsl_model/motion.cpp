@@ -41,7 +41,7 @@ void Motion::add_speed(std::int64_t speed) {
   speed_ = static_cast<int>(low_signed(speed_ + speed, 24));
 }
 
-void Motion::frame(std::optional<int> acceleration) {
+void Motion::frame(std::optional<int> acceleration, bool marked) {
   const int a = acceleration ? *acceleration : estimate(last_);
   std::move_backward(last_.begin(), last_.end() - 1, last_.end());
   last_[0] = a;
@@ -54,7 +54,7 @@ void Motion::frame(std::optional<int> acceleration) {
     return;
   }
   ++missing_;
-  if (rules_.recover && phase_ == kAligned && !lost_) {
+  if (rules_.recover && !marked && phase_ == kAligned && !lost_) {
     lost_ = true;
     lost_frames_ = 1;
     lost_first_ = 0;

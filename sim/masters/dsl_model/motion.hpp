@@ -6,7 +6,8 @@
 //
 // Alignment has four phases, one at each end of a vertical frame: the position is set, then speed
 // and position are corrected, then nothing, then both have to agree. While it is aligned and
-// `recover` is on, a single missing word is repaired by the next safe position alone.
+// `recover` is on, a single missing word is repaired by the next safe position alone: not one that
+// the encoder has marked, because its words behind it may only lead the sum back to the truth.
 #ifndef MB4SIM_DSL_MODEL_MOTION_HPP_
 #define MB4SIM_DSL_MODEL_MOTION_HPP_
 
@@ -30,8 +31,8 @@ class Motion {
 
   // A link begins with an encoder of this width, 8 to 40 bits.
   void start(unsigned position_bits);
-  // A frame, with its second difference if the word was good.
-  void frame(std::optional<int> acceleration);
+  // A frame, with its second difference if the word was good. `marked`: the encoder has none.
+  void frame(std::optional<int> acceleration, bool marked = false);
   // The end of a vertical frame, after its last frame(), with its safe position if that is valid.
   void vertical_end(std::optional<std::uint64_t> safe);
 

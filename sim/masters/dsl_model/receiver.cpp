@@ -62,7 +62,7 @@ bool Receiver::learn() {
   if (learning_) {
     if (!fits()) return false;
     const bool same = bits_from(place_of_bit()) == kTestPattern;
-    track(false);
+    track(Window::kTraining);
     return same && fits();
   }
   learning_ = true;
@@ -71,8 +71,8 @@ bool Receiver::learn() {
   // This edge may have come early or late. If it is half a bit away from others, these count to the
   // wrong bit; so the same edges are measured again from the place that they have given.
   place_ = *zero << kFraction;
-  track(false);
-  track(false);
+  track(Window::kTraining);
+  track(Window::kTraining);
   return fits();
 }
 
@@ -102,17 +102,17 @@ bool Receiver::matches() {
   for (unsigned slot = delay(); slot < delay() + kAnswerBits && slot < kSlots; ++slot) {
     edges_ |= edges_of(slot);
   }
-  if (rule_ == SampleRule::kTracking) track(false);
+  if (rule_ == SampleRule::kTracking) track(Window::kTraining);
   return same && fits();
 }
 
-Answer Receiver::answer() {
+Answer Receiver::answer(bool linked) {
   const Answer answer = bits_from(place_of_bit());
   frame_rssi_ = kBestRssi;
   for (unsigned slot = delay(); slot < delay() + kAnswerBits && slot < kSlots; ++slot) {
     frame_rssi_ = std::min(frame_rssi_, rssi_of(edges_of(slot), rssi_table_));
   }
-  if (rule_ == SampleRule::kTracking) track(true);
+  if (rule_ == SampleRule::kTracking) track(linked ? Window::kLinked : Window::kIdentity);
   return answer;
 }
 
@@ -128,7 +128,7 @@ std::uint8_t Receiver::edges_of(unsigned slot) const {
 }
 
 // An edge belongs to the nearest begin of a bit.
-void Receiver::track(bool linked) {
+void Receiver::track(Window window) {
   constexpr int kOne = 1 << kFraction;
   constexpr int kBit = 8 * kOne;
   constexpr int kFewest = 8;
@@ -147,12 +147,13 @@ void Receiver::track(bool linked) {
   if (count < kFewest) return;
   count = std::min(count, kMost);
   int move = sum / count;
-  if (linked) move = std::clamp(move, -kStep, kStep);
+  if (window == Window::kLinked) move = std::clamp(move, -kStep, kStep);
   const int moved = static_cast<int>(place_) + move;
   // The answer stays in the window.
   const int lowest = (static_cast<int>(kMinDelay) * 8 - 4) * kOne;
   const int highest = (static_cast<int>(kMaxDelay) * 8 + 4) * kOne - 1;
-  place_ = static_cast<unsigned>(linked ? std::clamp(moved, lowest, highest) : std::max(moved, 0));
+  place_ = static_cast<unsigned>(window == Window::kTraining ? std::max(moved, 0)
+                                                             : std::clamp(moved, lowest, highest));
 }
 
 }  // namespace mb4::sim::dsl_model

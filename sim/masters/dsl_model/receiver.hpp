@@ -42,8 +42,7 @@ class Receiver {
 
   Receiver(SampleRule rule, bool rssi_table) : rule_(rule), rssi_table_(rssi_table) {}
 
-  // --- one window: begin(), kSamples times take(), then the calls below
-  // ---------------------------
+  // --- one window: begin(), kSamples times take(), then the calls below --------------------------
   void begin() { count_ = 0; }
   bool full() const { return count_ == kSamples; }
   void take(bool level) { samples_[count_++] = level; }
@@ -57,7 +56,8 @@ class Receiver {
   bool matches();
 
   // --- answers -----------------------------------------------------------------------------------
-  Answer answer();
+  // `linked`: a link is there, which keeps the place from moving far.
+  Answer answer(bool linked);
   // Of that answer.
   unsigned rssi() const { return frame_rssi_; }
 
@@ -78,7 +78,8 @@ class Receiver {
   std::optional<unsigned> first_zero() const;
   bool fits() const { return delay() >= kMinDelay && delay() <= kMaxDelay; }
   bool learn_by_search();
-  void track(bool linked);
+  enum class Window { kTraining, kIdentity, kLinked };
+  void track(Window window);
   std::uint8_t edges_of(unsigned slot) const;
 
   SampleRule rule_;

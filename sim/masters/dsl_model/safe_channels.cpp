@@ -21,6 +21,13 @@ std::uint16_t crc_in(const std::array<std::uint8_t, SafeChannels::kFrames>& byte
 
 }  // namespace
 
+bool fits(std::uint64_t position, unsigned bits, bool is_signed) {
+  constexpr unsigned kBits = 40;
+  const std::uint64_t above = (std::uint64_t{1} << kBits) - (std::uint64_t{1} << bits);
+  const bool negative = is_signed && (position >> (bits - 1) & 1U) != 0;
+  return (position & above) == (negative ? above : 0);
+}
+
 bool SafeChannels::frame(unsigned place, const Word& vertical, const Word& secondary,
                          QualityEvents& events) {
   const auto take = [place](Bytes& channel, const Word& word) {

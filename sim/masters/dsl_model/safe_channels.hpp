@@ -22,6 +22,9 @@ struct SafeChannel {
   bool error = false;        // its code or its CRC was wrong
 };
 
+// The bits of a safe position above its width are as its sign, or without a sign 0.
+bool fits(std::uint64_t position, unsigned bits, bool is_signed);
+
 class SafeChannels {
  public:
   // Frames of a vertical frame.

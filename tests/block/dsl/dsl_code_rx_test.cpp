@@ -35,7 +35,7 @@ TEST(DslCodeRxBlock, EachWord_IsThatOfTheModel) {
                      << "word " << line << " channel " << static_cast<int>(channel));
         m.line_i = static_cast<std::uint16_t>(line);
         m.strict_i = check == CodeCheck::kStrict;
-        m.acceleration_i = channel == Channel::kAcceleration;
+        m.raw_i = channel == Channel::kAcceleration;
         m.second_i = channel == Channel::kSecond;
         m.eval();
         const Word expected = decode(line, check, channel);

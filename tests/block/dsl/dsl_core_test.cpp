@@ -32,7 +32,6 @@ using dsl_registers::kWords;
 using dsl_registers::Record;
 using dsl_registers::WordOfRecord;
 
-constexpr unsigned kSdkBit = 1U << 26U;  // of dsl_pkg::quirks_t
 constexpr std::uint32_t kNever = 0xFFFF'FFFF;
 constexpr unsigned kResetClocks = 2;  // from rst_ni to the first clock without reset
 
@@ -66,6 +65,7 @@ class Encoder {
     marked = lied = false;
   }
 
+  void silence() { life_ = 0; }
   mb4test::DslSamples window(LinkState state) {
     if (state == LinkState::kRun && running_ > life_) {
       return mb4test::DslSamples(Receiver::kSamples, true);
@@ -162,9 +162,10 @@ class DslCoreBlock : public testing::TestWithParam<bool>, public LinkListener {
 
   void start(const LinkRules& given) {
     rules = given;
+    rules.sdk_map = sdk();
     model = Link(rules);
     model.set_listener(this);
-    m.quirks_i = dsl_frames::quirks_of(rules) | (sdk() ? kSdkBit : 0U);
+    m.quirks_i = dsl_frames::quirks_of(rules);
     m.word_req_i = 0;
     m.dsl_in_i = 1;
     block.clock();
@@ -228,7 +229,7 @@ class DslCoreBlock : public testing::TestWithParam<bool>, public LinkListener {
     const LinkFrame f = *pending;
     pending.reset();
     for (std::uint32_t& age : ages) age += age == kNever ? 0 : 1;
-    if (f.safe_new && f.safe1.valid) ages[0] = 0;
+    if (f.safe1_new) ages[0] = 0;
     if (f.safe_new && f.safe2.valid) ages[1] = 0;
     if (!f.lost && !encoder.lied) {
       ++certain;
@@ -268,9 +269,10 @@ class DslCoreBlock : public testing::TestWithParam<bool>, public LinkListener {
     newest = r;
     // The next state may have begun when the record of a last frame is made.
     known = f.restart == Restart::kNone;
+    if (!known) last_record = r;
     ++records;
-    const bool sum = f.safe_new && f.safe1.valid && f.safe1.summary != 0;
-    const bool vpos = f.safe_new && !f.safe1.valid && !f.safe1.error;
+    const bool sum = f.safe1_new && f.safe1.summary != 0;
+    const bool vpos = f.safe_new && !f.safe1_new && !f.safe1.error;
     events |= (sum ? map::SUM::kMask : 0U) | (f.safe_new && error ? map::SCE::kMask : 0U) |
               (vpos ? map::VPOS::kMask : 0U) | (f.lost && f.linked ? map::POS::kMask : 0U);
   }
@@ -378,6 +380,7 @@ class DslCoreBlock : public testing::TestWithParam<bool>, public LinkListener {
   bool lost_before = true;
   bool restarted = false;
   std::set<Restart> seen;
+  Record last_record{};  // of the frame that has ended the link
   std::uint64_t records = 0, checked = 0, mixed = 0, states = 0, certain = 0;
 };
 
@@ -387,9 +390,9 @@ TEST_P(DslCoreBlock, FramesAtRandom_AreThoseOfTheModel) {
   given.recover = !sdk();
   given.stale_limit = sdk() ? 0 : 2;
   given.quality = sdk() ? QualityRules::kFirmware : QualityRules::kSick;
-  given.acceleration_limit = 3;
+  given.acceleration_limit = 2;
   start(given);
-  write(sdk() ? map::kAddrAccErrCntThresh & ~3U : map::kAddrAccErrCnt & ~3U, 0x0303,
+  write(sdk() ? map::kAddrAccErrCntThresh & ~3U : map::kAddrAccErrCnt & ~3U, 0x0202,
         sdk() ? 0x2 : 0x1);
   while (frames < all) {
     SCOPED_TRACE(testing::Message() << "frame " << frames);
@@ -454,6 +457,42 @@ TEST_P(DslCoreBlock, Time_CountsClocks) {
     ASSERT_LT(low, now);
     ASSERT_EQ(read(page::kAddrTimeHigh), 0U);
     for (unsigned rest = random.below(3000); rest != 0; --rest) tick();
+  }
+}
+
+// R1, R19: no safe position is valid, or young, when the link is gone. What the last frame has told
+// is of its end, although the next frame begins before its record is made.
+TEST_P(DslCoreBlock, LinkLost_SafePositionsAreNotValid) {
+  start({});
+  encoder.faults = false;
+  for (unsigned frame = 0; !known && !HasFailure();) {
+    tick();
+    frame += at == 0 ? 1 : 0;
+    ASSERT_LT(frame, 100U);
+  }
+  for (const std::uint64_t count = records; records < count + 40 && !HasFailure();) tick();
+  ASSERT_EQ(read(page::kAddrStatus) & 0x1FU, 0x1EU);
+  read(page::kAddrSafe1Lo);
+  ASSERT_LT(read(page::kAddrSafe1Lo + 12), 8U);
+  encoder.silence();
+  while (known && !HasFailure()) tick();
+  // The record of the last frame.
+  for (unsigned i = 0; i < 4; ++i) tick();
+  EXPECT_EQ(read(page::kAddrPosLo), last_record[0] | last_record[1] << 8U | last_record[2] << 16U |
+                                        std::uint32_t{last_record[3]} << 24U);
+  EXPECT_EQ(read(page::kAddrFrameStatus) & 0x000F'001FU, 0x0008'0005U);
+  const unsigned reason = static_cast<unsigned>(model.last_restart());
+  EXPECT_EQ(read(page::kAddrFrameStatus) >> 24U, reason);
+  for (unsigned turn = 0; turn < 3; ++turn) {
+    for (unsigned i = 0; i < 400; ++i) tick();
+    EXPECT_EQ(read(page::kAddrStatus) & 0x1BU, 1U);
+    for (const unsigned address : {page::kAddrSafe1Lo, page::kAddrSafe2Lo}) {
+      read(address);
+      EXPECT_EQ(read(address + 8) >> 31U, 0U);
+      EXPECT_EQ(read(address + 12), kNever);
+    }
+    read(page::kAddrPosLo);
+    EXPECT_EQ(read(page::kAddrFrameStatus) & 0x1BU, 1U);
   }
 }
 

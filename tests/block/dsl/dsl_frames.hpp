@@ -99,14 +99,15 @@ struct StatusPort {
   unsigned state = 0;
   unsigned reason = 0;
   unsigned identity = 0;
+  unsigned width = 8;
   unsigned quality = 0;
   unsigned delay = 0;
 
   template <typename Port>
   void write(Port& port) const {
     unsigned at = 0;
-    const auto add = [&port, &at](unsigned value, unsigned width) {
-      for (unsigned i = 0; i < width; ++i, ++at) {
+    const auto add = [&port, &at](unsigned value, unsigned bits) {
+      for (unsigned i = 0; i < bits; ++i, ++at) {
         const unsigned bit = 1U << at % 32;
         port[at / 32] = (port[at / 32] & ~bit) | ((value >> i & 1U) != 0 ? bit : 0U);
       }
@@ -114,6 +115,7 @@ struct StatusPort {
     add(delay << 8U, 12);
     add(0, 8 + 4 + 1);
     add(quality, 4);
+    add(width - 8, 6);
     add(identity, 20);
     add(0, 16 + 16);
     add(reason, 3);
@@ -124,13 +126,15 @@ struct StatusPort {
 // dsl_pkg::told_t.
 struct Told {
   explicit Told(unsigned port)
-      : acceleration_good((port >> 9U & 1U) != 0),
+      : acceleration_good((port >> 10U & 1U) != 0),
+        acceleration_marked((port >> 9U & 1U) != 0),
         missing(port >> 4U & 0x1FU),
         safe1_valid((port >> 3U & 1U) != 0),
         safe1_error((port >> 2U & 1U) != 0),
         safe2_valid((port >> 1U & 1U) != 0),
         safe2_error((port & 1U) != 0) {}
   bool acceleration_good;
+  bool acceleration_marked;
   unsigned missing;
   bool safe1_valid;
   bool safe1_error;
@@ -141,13 +145,15 @@ struct Told {
 // dsl_pkg::verdict_t.
 struct Verdict {
   explicit Verdict(unsigned port)
-      : safe1_error((port >> 3U & 1U) != 0),
-        safe1_good((port >> 2U & 1U) != 0),
-        safe2_error((port >> 1U & 1U) != 0),
+      : safe1_error((port >> 4U & 1U) != 0),
+        safe1_good((port >> 3U & 1U) != 0),
+        safe2_error((port >> 2U & 1U) != 0),
+        misfit((port >> 1U & 1U) != 0),
         missing((port & 1U) != 0) {}
   bool safe1_error;
   bool safe1_good;
   bool safe2_error;
+  bool misfit;
   bool missing;
 };
 

@@ -88,13 +88,14 @@ struct StatusPort {
     rssi = fields.next(4);
     low = fields.next(1) != 0;
     quality = fields.next(4);
+    width = fields.next(6);
     identity = fields.next(20);
     illegal = fields.next(16);
     resets = fields.next(16);
     reason = fields.next(3);
     state = fields.next(4);
   }
-  unsigned place, edges, rssi, quality, identity, illegal, resets, reason, state;
+  unsigned place, edges, rssi, quality, width, identity, illegal, resets, reason, state;
   bool low;
 };
 
@@ -108,7 +109,7 @@ class Judge {
 
   void take(unsigned number, const Word& word) { words_[number] = word; }
   // dsl_pkg::verdict_t of the frame.
-  unsigned verdict(const AnswerPort& answer) {
+  unsigned verdict(const AnswerPort& answer, unsigned identity) {
     if (answer.place == 0) channels_ = {};
     Channel& one = channels_[0];
     Channel& two = channels_[1];
@@ -122,8 +123,9 @@ class Judge {
       if (!two.error && !two.crc_good() && !firmware) error2 = true;
     }
     missing_ = acceleration_good() ? 0 : missing_ + 1;
-    return (error1 ? 8U : 0U) | (good1 ? 4U : 0U) | (error2 ? 2U : 0U) |
-           (missing_ >= rules_.acceleration_limit ? 1U : 0U);
+    const bool misfit = rules_.strict_id && good1 && !one.mark && !one.fits(identity);
+    return (error1 ? 16U : 0U) | (good1 ? 8U : 0U) | (error2 ? 4U : 0U) | (misfit ? 2U : 0U) |
+           (missing_ != 0 && missing_ >= rules_.acceleration_limit ? 1U : 0U);
   }
   void begin() { missing_ = 0; }
 
@@ -131,12 +133,23 @@ class Judge {
   struct Channel {
     std::array<std::uint8_t, kVertical> bytes{};
     bool error = false;
+    bool mark = false;  // a special character but K28
     // The first error of the code.
     bool take(unsigned place, const Word& word) {
       bytes[place] = word.byte;
       const bool first = word.error && !error;
       error |= word.error;
+      mark |= word.special && !word.error && (word.byte & 0x1FU) != 28;
       return first;
+    }
+    // The position as a number of the identity's width, widened again, is what came.
+    bool fits(unsigned identity) const {
+      std::int64_t position = 0;
+      for (unsigned i = 1; i <= 5; ++i) position = position << 8 | bytes[i];
+      const unsigned width = (identity >> 4U & 0x3FU) + (identity & 0xFU) + 8;
+      std::int64_t low = position & ((std::int64_t{1} << width) - 1);
+      if ((identity & 0x400U) != 0 && low >> (width - 1) != 0) low -= std::int64_t{1} << width;
+      return (low & 0xFF'FFFF'FFFF) == position;
     }
     bool crc_good() const {
       const auto& b = bytes;
@@ -241,8 +254,12 @@ class Encoder {
     if (wrong_identity_ && dice(2)) acceleration = random_.below(16);
     if (wrong_identity_ && dice(2)) width = 8 + random_.below(60);
     const unsigned less = (width - acceleration - 8) & 0x3FU;
-    const unsigned id =
-        random_.below(16) << 16U | random_.below(64) << 10U | less << 4U | acceleration;
+    // Now and then more of it would follow, or the width is not that of the positions.
+    const unsigned top = random_.below(wrong_identity_ ? 16 : 8);
+    const unsigned id = top << 16U | random_.below(64) << 10U | less << 4U | acceleration;
+    width_ = std::clamp(less + acceleration + 8, 8U, 40U);
+    signed_ = (id & 0x400U) != 0;
+    wide_ = faults && dice(12);
     std::array<unsigned, 5> bytes = {id & 0xFFU, id >> 8U & 0xFFU, (id >> 16U) * 0x11U,
                                      id >> 8U & 0xFFU, id & 0xFFU};
     if (wrong_identity_) bytes[random_.below(5)] ^= random_.below(2) << random_.below(8);
@@ -255,6 +272,15 @@ class Encoder {
   void fill() {
     for (auto& channel : bytes_) {
       for (auto& byte : channel) byte = static_cast<std::uint8_t>(random_.below(256));
+    }
+    if (!wide_) {
+      std::int64_t position = 0;
+      for (unsigned i = 1; i <= 5; ++i) position = position << 8 | bytes_[0][i];
+      position &= (std::int64_t{1} << width_) - 1;
+      if (signed_ && position >> (width_ - 1) != 0) position -= std::int64_t{1} << width_;
+      for (unsigned i = 1; i <= 5; ++i) {
+        bytes_[0][i] = static_cast<std::uint8_t>(position >> 8 * (5 - i));
+      }
     }
     bytes_[1][0] =
         static_cast<std::uint8_t>(0x1CU | random_.below(2) << 7U | (dice(8) ? 0x40U : 0U));
@@ -330,6 +356,9 @@ class Encoder {
   unsigned frames_ = 0;
   unsigned wrong_frame_ = ~0U;
   bool wrong_identity_ = false;
+  unsigned width_ = 32;
+  bool signed_ = false;
+  bool wide_ = false;  // positions are wider than the identity says
   unsigned vsync_after_ = 3;
   unsigned inits_ = 0;
   unsigned running_ = 0;
@@ -487,7 +516,7 @@ class Lines final : public LinkListener {
 
   // Right from the clock behind `ends` on, up to the first word of the next frame; else anything.
   void take_verdict() {
-    m.verdict_i = static_cast<std::uint8_t>(verdict_ ? *verdict_ : random_.below(16));
+    m.verdict_i = static_cast<std::uint8_t>(verdict_ ? *verdict_ : random_.below(32));
   }
 
   void look() {
@@ -500,7 +529,7 @@ class Lines final : public LinkListener {
       judge_.take(answer.number, answer.word);
     }
     if (answer.ends) {
-      if (answer.running) verdict_ = judge_.verdict(answer);
+      if (answer.running) verdict_ = judge_.verdict(answer, StatusPort(m.status_o).identity);
       running_ = answer.running;
       place_ = answer.place;
     }
@@ -534,6 +563,9 @@ class Lines final : public LinkListener {
     if (!training) {
       EXPECT_EQ(status.rssi, frame.rssi);
       EXPECT_EQ(status.identity, model.identity() & 0xFFFFFU);
+      if (frame.linked) {
+        EXPECT_EQ(status.width + 8, model.position_bits());
+      }
       const AnswerWords& w = frame.words;
       const Word* expected[] = {&w.vertical,          &w.parameter,        &w.pipeline,
                                 &w.acceleration_high, &w.acceleration_low, &w.secondary};
@@ -591,7 +623,9 @@ class DslLineBlock : public testing::TestWithParam<SampleRule> {
     rules.rssi_table = random.below(2) != 0;
     rules.rx_start = random.below(16);
     rules.start_blocks = random.below(27);
-    rules.acceleration_limit = 1 + random.below(31);
+    rules.acceleration_limit = random.below(32);
+    rules.sdk_map = random.below(2) != 0;
+    rules.strict_id = random.below(2) != 0;
     constexpr unsigned kLimits[] = {0, 1, 5, 64, 255};
     rules.vsync_limit = kLimits[random.below(5)];
     return rules;

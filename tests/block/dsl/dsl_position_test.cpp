@@ -67,6 +67,7 @@ class DslPositionBlock : public testing::Test {
  protected:
   DslPositionBlock() {
     v.limit_i = 31;
+    v.width_i = v.signed_i = 0;
     v.answer_i = m.answer_i = 0;
     m.told_i = 0;
     m.time_i = 0;
@@ -124,6 +125,25 @@ class DslPositionBlock : public testing::Test {
     return result;
   }
 
+  // A link is over: a record more says so.
+  void end_link() {
+    const bool was_linked = port.linked;
+    port = {};
+    clock();
+    EXPECT_EQ(m.lost_o, 1);
+    if (!was_linked) return;
+    const auto before = record;
+    until_told(200);
+    EXPECT_EQ(value(kAge[0], 4), kNever);
+    EXPECT_EQ(value(kAge[1], 4), kNever);
+    EXPECT_EQ(record[kStatus] & 0b1'1111, 1) << "no link, no safe position";
+    EXPECT_EQ(record[kStatus + 2], status.state);
+    for (unsigned i = 0; i < 64; ++i) {
+      const bool stays = i < kStatus || (i >= kTime && i < kAge[0]) || i >= kWide;
+      if (!stays || i % 8 >= kUsed[i / 8]) continue;
+      EXPECT_EQ(record[i], before[i]) << "byte " << i;
+    }
+  }
   // A link begins with an encoder of this width.
   void begin_link(unsigned bits, bool recover, unsigned stale_limit) {
     width = bits;
@@ -131,12 +151,11 @@ class DslPositionBlock : public testing::Test {
     m.quirks_i = quirks_of({.recover = recover, .stale_limit = stale_limit});
     // The acceleration has 8 to 11 bits of them.
     const unsigned acceleration_bits = 8 + std::min(random.below(4), bits - 8);
+    status.width = bits;
     status.identity =
         (is_signed ? 1U << 10U : 0U) | (bits - acceleration_bits) << 4U | (acceleration_bits - 8);
     status.write(m.status_i);
-    port = {};
-    for (unsigned i = 0; i < 5; ++i) clock();
-    EXPECT_EQ(m.lost_o, 1);
+    end_link();
     port.linked = port.begins = true;
     clock();
     port.begins = false;
@@ -201,7 +220,8 @@ class DslPositionBlock : public testing::Test {
     ++frames;
 
     const auto acceleration = acceleration_in(answer, CodeCheck::kStrict);
-    motion.frame(acceleration);
+    motion.frame(acceleration,
+                 answer.acceleration_high.is(kMarker1) || answer.acceleration_low.is(kMarker1));
     missing = acceleration ? 0 : missing + 1;
     for (std::uint64_t& age : ages) age += age == kNever ? 0 : 1;
     QualityEvents events;
@@ -250,7 +270,7 @@ class DslPositionBlock : public testing::Test {
                                    bit(channels[1].valid, 4) | bit(error, 5) |
                                    bit(channels[0].error, 6) | bit(channels[1].error, 7));
     ASSERT_EQ(record[kStatus + 1], status.delay << 4U | status.quality);
-    ASSERT_EQ(record[kStatus + 2], status.state);
+    ASSERT_EQ(record[kStatus + 2], 8) << "a running frame";
     ASSERT_EQ(record[kStatus + 3], status.reason);
     ASSERT_EQ(Told(v.told_o).missing, missing);
   }
@@ -460,6 +480,86 @@ TEST_F(DslPositionBlock, SafePositionAfterLoss_HasToBeAWholeNumberOfSteps) {
     }
   }
   lie = 0;
+}
+
+// R1, R19: no safe position is valid, or young, without a link, wherever it ends: between frames,
+// within one, in the last one of a vertical frame.
+TEST_F(DslPositionBlock, WithoutALink_NoSafePositionIsYoung) {
+  for (unsigned turn = 0; turn < 200; ++turn) {
+    SCOPED_TRACE(testing::Message() << "turn " << turn);
+    encoder = {.position = noise.next(), .before = 0};
+    encoder.sample(0);
+    begin_link(32, true, 2);
+    const unsigned frames_before = 6 + random.below(12);
+    for (unsigned i = 0; i < frames_before; ++i) {
+      encoder.sample(next_acceleration());
+      run(Injury{});
+    }
+    if (random.below(3) != 0) {
+      // The link ends in a frame, or with it.
+      encoder.sample(0);
+      const Words words = words_of({});
+      const unsigned at = random.below(2) != 0 ? random.below(150) : 150;
+      unsigned passed = 0;
+      dsl_frames::send(
+          port, words, [](unsigned) { return 20U; },
+          [&] {
+            if (passed++ == at) port.linked = false;
+            told = false;
+            clock();
+            if (told) take_record();
+          });
+      for (unsigned i = 0; i < 3; ++i) {
+        clock();
+        if (told) take_record();
+      }
+      port.linked = false;
+    } else {
+      port.linked = false;
+    }
+    port.running = false;
+    // Whatever the program has begun is shown, and then the end of the link.
+    for (unsigned i = 0; i < 1200; ++i) {
+      clock();
+      if (told) take_record();
+    }
+    ASSERT_EQ(value(kAge[0], 4), kNever);
+    ASSERT_EQ(value(kAge[1], 4), kNever);
+    ASSERT_EQ(record[kStatus] & 0b1'1011, 1);
+    frames = value(kCount, 4);
+    port = {};
+  }
+}
+
+// R23: an encoder whose second difference does not fit marks it, and may catch up with legal words
+// behind it. A position that is certain is right all the same; the four phases find it.
+TEST_F(DslPositionBlock, EncoderThatCatchesUp_NeverMakesAWrongPositionCertain) {
+  // From standing still to 1500 steps a frame, and the way that was missed, in eight frames.
+  constexpr std::array<int, 8> kCatchUp = {1023, 1023, 0, 0, -207, -339, 0, 0};
+  for (unsigned place = 0; place < 8; ++place) {
+    SCOPED_TRACE(testing::Message() << "place " << place);
+    encoder = {.position = 0x1234'5678, .before = 0x1234'5678};
+    wild = false;
+    begin_link(32, true, 2);
+    align();
+    unsigned i = 0;
+    while (port.place != place) run(Injury{});
+    unsigned certain = 0;
+    for (i = 0; i < 64; ++i) {
+      encoder.before = encoder.position;
+      encoder.position += 1500;
+      encoder.acceleration = i >= 1 && i <= 8 ? kCatchUp[i - 1] : 0;
+      Words words = words_of({});
+      if (i == 0) words[kHigh] = words[kLow] = {.byte = kMarker1, .special = true};
+      run(words);
+      if (HasFatalFailure()) return;
+      if (m.lost_o != 0) continue;
+      ++certain;
+      ASSERT_TRUE(right()) << "frame " << i;
+    }
+    EXPECT_GT(certain, 0U);
+  }
+  wild = true;
 }
 
 // Random links with everything that can happen, in each state and place.

@@ -19,7 +19,7 @@ namespace {
 
 using namespace mb4::sim::dsl_model;
 
-enum Purpose : std::uint8_t { kForStart, kForMatch, kForWords };
+enum Purpose : std::uint8_t { kForStart, kForMatch, kForWords, kForIdentity };
 
 constexpr unsigned kLatest = 48;  // clocks from the last sample to done_o
 using Samples = mb4test::DslSamples;
@@ -93,8 +93,9 @@ class DslReceiverBlock : public testing::TestWithParam<SampleRule> {
     Answer answer = 0;
     if (purpose == kForStart) expected = model.learn();
     if (purpose == kForMatch) expected = model.matches();
-    if (purpose == kForWords) answer = model.answer();
-    if (purpose != kForWords) {
+    const bool words_come = purpose >= kForWords;
+    if (words_come) answer = model.answer(purpose == kForWords);
+    if (!words_come) {
       EXPECT_EQ(good, expected);
     }
     if (!expected) return false;
@@ -104,8 +105,8 @@ class DslReceiverBlock : public testing::TestWithParam<SampleRule> {
       EXPECT_EQ(m.place_o - 4 * 32, model.place());
     }
     EXPECT_EQ(m.edges_o, model.edges());
-    EXPECT_EQ(m.rssi_o, purpose == kForWords ? model.rssi() : m.rssi_o);
-    if (purpose == kForWords) {
+    EXPECT_EQ(m.rssi_o, words_come ? model.rssi() : m.rssi_o);
+    if (words_come) {
       EXPECT_EQ(words.size(), 6U);
       for (unsigned i = 0; i < words.size(); ++i) {
         EXPECT_EQ(words[i], answer >> kLowest[i] & 0x3FFU) << "word " << i;
@@ -151,8 +152,11 @@ TEST_P(DslReceiverBlock, StartsAtRandom_AreThoseOfTheModel) {
     bool went = true;
     for (unsigned frame = 0; frame < 34 + 30 && went; ++frame) {
       SCOPED_TRACE(testing::Message() << "frame " << frame);
-      const Purpose purpose = frame < 9 ? kForStart : frame < 34 ? kForMatch : kForWords;
-      Answer answer = purpose == kForWords ? any_answer() : kTestPattern;
+      const Purpose purpose = frame < 9     ? kForStart
+                              : frame < 34  ? kForMatch
+                              : frame == 34 ? kForIdentity
+                                            : kForWords;
+      Answer answer = frame >= 34 ? any_answer() : kTestPattern;
       if (wrong && frame == wrong_frame) answer ^= Answer{1} << random.below(kAnswerBits);
       went = window(purpose, samples_of(answer, begin, jitter, duty));
       rest(200 + random.below(20));
@@ -192,7 +196,9 @@ TEST_P(DslReceiverBlock, NoiseAtRandom_IsThatOfTheModel) {
       }
       if (random.below(16) == 0) samples.assign(samples.size(), random.below(2) != 0);
       const bool first = frame == 0 && !good_first;
-      const Purpose purpose = first || random.below(8) == 0 ? kForStart : kForWords;
+      const Purpose purpose = first || random.below(8) == 0 ? kForStart
+                              : random.below(4) == 0        ? kForIdentity
+                                                            : kForWords;
       went = window(purpose, samples);
       if (HasFailure()) return;
     }

@@ -24,7 +24,6 @@ using dsl_registers::Record;
 using dsl_registers::reset_words;
 using dsl_registers::WordOfRecord;
 
-constexpr unsigned kSdkBit = 1U << 26U;  // of dsl_pkg::quirks_t
 constexpr unsigned kNewest = 7;
 constexpr unsigned kSummary = 37;  // in a record
 
@@ -46,6 +45,7 @@ struct Status {
     add(rssi, 4);
     add(low, 1);
     add(quality, 4);
+    add(0, 6);
     add(identity, 20);
     add(illegal, 16);
     add(resets, 16);
@@ -70,7 +70,7 @@ class DslRegsBlock : public testing::TestWithParam<bool> {
 
   void start() {
     m.rst_ni = 0;
-    m.quirks_i = dsl_frames::quirks_of({}) | (sdk() ? kSdkBit : 0U);
+    m.quirks_i = dsl_frames::quirks_of({.sdk_map = sdk()});
     m.word_req_i = m.ended_i = m.tell_i = m.record_write_i = m.time_copied_i = 0;
     m.lost_i = 1;
     m.record_data_i = m.time_data_i = 0;
@@ -266,8 +266,9 @@ TEST_P(DslRegsBlock, Status_IsOfNow) {
     const unsigned error = told.safe1_error || told.safe2_error ? 1 : 0;
     EXPECT_EQ(read(page::kAddrStatus),
               status.reason << 24U | status.state << 16U | delay << 12U | status.quality << 8U |
-                  error << 5U | (told.safe2_valid ? 16U : 0U) | (told.safe1_valid ? 8U : 0U) |
-                  (answer.running ? 4U : 0U) | (answer.linked ? 2U : 0U) | m.lost_i);
+                  error << 5U | (told.safe2_valid && answer.linked ? 16U : 0U) |
+                  (told.safe1_valid && answer.linked ? 8U : 0U) | (answer.running ? 4U : 0U) |
+                  (answer.linked ? 2U : 0U) | m.lost_i);
     EXPECT_EQ(read_byte(map::kAddrMasterQm), (answer.linked ? 0x80U : 0U) | status.quality);
     EXPECT_EQ(read_byte(map::kAddrEdges), status.edges);
     EXPECT_EQ(read_byte(map::kAddrDelay), rssi << 4U | delay);

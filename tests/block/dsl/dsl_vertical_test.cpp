@@ -27,6 +27,8 @@ class DslVerticalBlock : public testing::Test {
   DslVerticalBlock() {
     m.quirks_i = quirks_of({});
     m.limit_i = 31;
+    m.width_i = 32;
+    m.signed_i = 0;
     m.answer_i = 0;
     block.reset();
   }
@@ -119,6 +121,68 @@ TEST_F(DslVerticalBlock, SafePositionsOfKnownCrc_AreGood) {
   }
 }
 
+// R23, R38: the marker is a bad word, and told apart from one that a line has made.
+TEST_F(DslVerticalBlock, MarkerInTheAcceleration_IsTold) {
+  begin_link();
+  const Word marker = {.byte = kMarker1, .special = true};
+  const Word data = {.byte = kMarker1};
+  const Word error = {.byte = kMarker1, .error = true, .special = true};
+  for (const Word& high : {marker, data, error}) {
+    for (const Word& low : {marker, data, error}) {
+      Words words{};
+      words[kHigh] = high;
+      words[kLow] = low;
+      send(words);
+      const bool marked = (high.special && !high.error) || (low.special && !low.error);
+      EXPECT_EQ(Told(m.told_o).acceleration_marked, marked);
+      EXPECT_FALSE(Told(m.told_o).acceleration_good);
+    }
+  }
+  // In another word it says nothing of the acceleration.
+  Words words{};
+  set_acceleration(words, 0x001F);
+  words[kVertical] = marker;
+  send(words);
+  EXPECT_FALSE(Told(m.told_o).acceleration_marked);
+}
+
+// Bits 39 down to the width: 0, with a sign all as the highest bit of the position.
+TEST_F(DslVerticalBlock, BitsAboveTheWidth_AreToldAsAMisfit) {
+  for (const bool is_signed : {false, true}) {
+    for (unsigned bits = 8; bits <= 40; ++bits) {
+      m.width_i = static_cast<CData>(bits - 8);
+      m.signed_i = is_signed ? 1 : 0;
+      for (const bool negative : {false, true}) {
+        const std::uint64_t top = std::uint64_t{1} << (bits - 1);
+        std::uint64_t position = (top - 1) & 0x5A'A55A'3CC3;
+        if (negative) position |= top;
+        if (negative && is_signed) position |= ~(2 * top - 1);
+        for (unsigned bit = 0; bit <= 40; ++bit) {
+          SCOPED_TRACE(testing::Message() << bits << (is_signed ? " bits and sign " : " bits ")
+                                          << negative << " wrong " << bit);
+          // Without the wrong one, which is bit 40; the sign itself is a bit of the position.
+          const std::uint64_t sent = (position ^ std::uint64_t{1} << bit) & 0xFF'FFFF'FFFF;
+          begin_link();
+          send_vertical(safe_bytes(0, sent), safe_bytes(0, ~sent));
+          const bool above = is_signed ? bits < 40 && bit + 1 >= bits : bit >= bits;
+          EXPECT_EQ(Verdict(m.verdict_o).misfit, above && bit < 40);
+          EXPECT_TRUE(Told(m.told_o).safe1_valid);
+          if (!above || bit == 40) continue;
+          SafeBytes wrong = safe_bytes(0, sent);
+          wrong[7] ^= 1U;
+          send_vertical(wrong, wrong);
+          EXPECT_FALSE(Verdict(m.verdict_o).misfit) << "not a good one";
+        }
+      }
+    }
+  }
+  m.width_i = 0;
+  m.quirks_i = quirks_of({.strict_id = false});
+  begin_link();
+  send_vertical(safe_bytes(0, 0x1234567), safe_bytes(0, 0));
+  EXPECT_FALSE(Verdict(m.verdict_o).misfit);
+}
+
 struct Rules {
   CodeCheck check;
   QualityRules quality;
@@ -138,11 +202,14 @@ TEST_P(DslVerticalRules, FramesAtRandom_AreThoseOfTheModel) {
   unsigned wrong = 0;
   unsigned links = 0;
   unsigned bad_words = 60;
+  unsigned misfits = 0;
   std::array<SafeBytes, 2> safe{};
   for (std::uint64_t i = 0; i < frames; ++i) {
-    if (!port.linked || missing >= m.limit_i || random.below(700) == 0) {
+    if (!port.linked || (missing != 0 && missing >= m.limit_i) || random.below(700) == 0) {
       ++links;
-      m.limit_i = static_cast<std::uint8_t>(1 + random.below(31));
+      m.limit_i = static_cast<std::uint8_t>(random.below(32));
+      m.width_i = static_cast<std::uint8_t>(random.below(33));
+      m.signed_i = static_cast<std::uint8_t>(random.below(2));
       begin_link();
       port.place = 0;
       model.start();
@@ -152,7 +219,16 @@ TEST_P(DslVerticalRules, FramesAtRandom_AreThoseOfTheModel) {
     }
     if (port.place == 0) {
       for (SafeBytes& bytes : safe) {
-        bytes = safe_bytes(random.below(256), std::uint64_t{random.below(1U << 31U)} << 9U);
+        std::uint64_t position = std::uint64_t{random.below(1U << 31U)} << 9U;
+        // As an encoder of this width has it, or nearly.
+        const unsigned above = 64 - 8 - m.width_i;
+        const auto wide = static_cast<std::int64_t>(position << above) >> above;
+        if (random.below(4) != 0) {
+          position = m.signed_i != 0 ? static_cast<std::uint64_t>(wide)
+                                     : position & ~std::uint64_t{0} >> above;
+        }
+        if (random.below(8) == 0) position ^= std::uint64_t{1} << random.below(40);
+        bytes = safe_bytes(random.below(256), position);
         if (random.below(6) == 0) bytes[random.below(8)] ^= 1U;
       }
     }
@@ -183,7 +259,11 @@ TEST_P(DslVerticalRules, FramesAtRandom_AreThoseOfTheModel) {
     ASSERT_EQ(verdict.safe1_error, events.safe1_error);
     ASSERT_EQ(verdict.safe1_good, events.safe1_good);
     ASSERT_EQ(verdict.safe2_error, events.safe2_error);
-    ASSERT_EQ(verdict.missing, missing >= m.limit_i);
+    ASSERT_EQ(verdict.missing, missing != 0 && missing >= m.limit_i);
+    const bool judged = port.place + 1 == SafeChannels::kFrames && model.safe1().valid;
+    const bool misfit = judged && !fits(model.safe1().position, m.width_i + 8U, m.signed_i != 0);
+    ASSERT_EQ(verdict.misfit, misfit);
+    misfits += misfit ? 1 : 0;
     most = std::max(most, missing);
     if (port.place + 1 == SafeChannels::kFrames) {
       valid += told.safe1_valid ? 1 : 0;
@@ -195,6 +275,7 @@ TEST_P(DslVerticalRules, FramesAtRandom_AreThoseOfTheModel) {
   EXPECT_GT(wrong, frames / 80);
   EXPECT_GT(links, 10U);
   EXPECT_GT(most, 5U);
+  EXPECT_GT(misfits, frames / 200);
 }
 
 std::string name_of(const testing::TestParamInfo<Rules>& info) {

@@ -185,6 +185,28 @@ TEST(DslCode, PublishedCheck_MendsK28OfTheSecondChannel) {
   }
 }
 
+// R13: the strict check gives them back in each channel but the acceleration, where a wrong bit
+// could make one; in the personality of the SDK in the second channel only.
+TEST(DslCode, StrictCheck_MendsK28ByThePersonality) {
+  for (const unsigned y : {1U, 2U, 5U, 6U}) {
+    const auto byte = static_cast<std::uint8_t>(y << 5U | 28U);
+    const unsigned word = encoder::Coder(true).special(byte);
+    std::uint64_t five = 0;
+    for (unsigned i = 0; i < 5; ++i) five = five << 10U | word;
+    const std::uint64_t answer = five << 11U | word;
+    for (const bool sdk : {false, true}) {
+      const auto words = words_of(answer, CodeCheck::kStrict, sdk);
+      for (const auto* each : {&words.vertical, &words.parameter, &words.pipeline}) {
+        EXPECT_EQ(each->byte, sdk ? byte ^ 0xE0U : byte);
+        EXPECT_FALSE(each->error);
+      }
+      EXPECT_EQ(words.acceleration_high.byte, byte ^ 0xE0U);
+      EXPECT_EQ(words.acceleration_low.byte, byte ^ 0xE0U);
+      EXPECT_EQ(words.secondary.byte, byte);
+    }
+  }
+}
+
 // Single line errors of data bytes: 93.1 % pass the published check. In the acceleration field CRC5
 // lets 192 of 81,920 pass with it, none with the strict check.
 TEST(DslCode, SingleErrors_PassAsKnown) {

@@ -285,6 +285,104 @@ TEST(DslLink, BrokenIdentity_Restarts) {
   EXPECT_FALSE(bench.link().linked());
 }
 
+// Wrong bits in both copies of the one identity make a width that cannot be seen there. The safe
+// positions show it: their bits above the width are not those of a sign, or 0.
+TEST(DslLink, WrongWidth_EndsTheLinkWithASafePosition) {
+  struct {
+    std::uint64_t position;
+    bool is_signed;
+    unsigned flip;
+  } constexpr kWrong[] = {{0x89ABCDEF, false, 0x040},  // 28 bits
+                          {0x99ABCDEF, false, 0x003},  // 29 bits: two of the acceleration less
+                          {0x89ABCDEF, false, 0x400},  // a sign
+                          {0x89ABCDEF, true, 0x400},   // no sign
+                          {0xFFFFFFFF, true, 0x400},   //
+                          {0x89ABCDEF, true, 0x080}};  // 40 bits
+  for (const auto& wrong : kWrong) {
+    for (const bool strict : {true, false}) {
+      BenchSetup setup;
+      setup.rules.strict_id = strict;
+      setup.encoder.source.constant = wrong.position;
+      setup.encoder.is_signed = wrong.is_signed;
+      setup.encoder.identity_flip = wrong.flip;
+      Bench bench(setup);
+      // 40 bits of a number with a sign of 32 are a right position too.
+      const bool told = strict && wrong.flip != 0x080;
+      std::uint64_t last = 0;
+      bench.on_frame = [&](const LinkFrame& frame) {
+        if (frame.restart != Restart::kNone) last = frame.number;
+        EXPECT_TRUE(frame.lost || !told) << wrong.flip;
+      };
+      bench.run_until(3000 * kPsPerUs);
+      const std::string what = std::to_string(wrong.position) + " " + std::to_string(wrong.flip);
+      EXPECT_EQ(bench.link().restarts() > 1, told) << what;
+      if (!told) continue;
+      EXPECT_EQ(bench.link().last_restart(), Restart::kIdentity) << what;
+      EXPECT_EQ(last % 8, 0U) << what;
+    }
+  }
+}
+
+// Bit 19: more of the identity would follow. What that is nobody has published.
+TEST(DslLink, IdentityThatWouldGoOn_Restarts) {
+  for (const bool strict : {true, false}) {
+    BenchSetup setup;
+    setup.rules.strict_id = strict;
+    setup.encoder.identity_flip = 0x80000;
+    Bench bench(setup);
+    EXPECT_EQ(bench.link_up(3000 * kPsPerUs), !strict);
+    EXPECT_EQ(bench.link().last_restart(), strict ? Restart::kIdentity : Restart::kNone);
+    EXPECT_EQ(bench.link().identity(), 0x80153U);
+  }
+}
+
+// R13: CODE_ILLEGAL counts in each frame that brings words of the code.
+TEST(DslLink, IllegalWords_AreCountedInIdentityAndInitToo) {
+  for (const unsigned vsync_after : {3U, 65U}) {
+    BenchSetup setup;
+    setup.cable.answer_errors = 0.0005;
+    setup.encoder.vsync_after = vsync_after;  // 65 is too late
+    Bench bench(setup);
+    std::uint64_t running = 0;
+    std::uint64_t before = 0;
+    bench.on_frame = [&](const LinkFrame& frame) {
+      if (frame.state < LinkState::kIdRequest) return;
+      const auto& w = frame.words;
+      for (const auto* word : {&w.vertical, &w.parameter, &w.pipeline, &w.acceleration_high,
+                               &w.acceleration_low, &w.secondary}) {
+        if (word->only_strict) ++(frame.state == LinkState::kRun ? running : before);
+      }
+      EXPECT_EQ(bench.link().illegal_words(), running + before);
+    };
+    bench.run_until(30'000 * kPsPerUs);
+    EXPECT_GT(vsync_after == 3 ? running : before, 10U);
+  }
+}
+
+// R30: the place moves by two eighths at most when linked. In the ID frame there is no link yet.
+TEST(DslLink, TrackingInTheIdFrame_HasNoBound) {
+  for (const bool linked : {false, true}) {
+    dsl_model::Receiver receiver(SampleRule::kTracking, false);
+    const auto window = [&receiver](unsigned begin) {
+      receiver.begin();
+      for (unsigned i = 0; i < dsl_model::Receiver::kSamples; ++i) {
+        const unsigned bit = (i - begin) / 8;
+        const bool inside = i >= begin && bit < dsl_model::kAnswerBits;
+        receiver.take(!inside || (dsl_model::kTestPattern >> (60 - bit) & 1U) != 0);
+      }
+    };
+    receiver.forget();
+    for (unsigned frame = 0; frame < 9; ++frame) {
+      window(40);
+      ASSERT_TRUE(receiver.learn());
+    }
+    EXPECT_EQ(receiver.place(), 40U * 32);
+    window(43);
+    receiver.answer(linked);
+    EXPECT_EQ(receiver.place(), (linked ? 42U : 43U) * 32);
+  }
+}
+
 // The limit of the wait for VSYNC, and none.
 TEST(DslLink, NoVsync_RestartsAfterItsLimit) {
   for (const unsigned after : {3U, 11U, 64U, 65U}) {

@@ -133,7 +133,7 @@ TEST(DslQuality, WrongVerticalByte_KeepsTheOldSafePosition) {
         EXPECT_TRUE(told.valid2) << place << " " << bit;
         EXPECT_EQ(told.position1, 0x11223344U) << place << " " << bit;
         EXPECT_FALSE(told.lost) << place << " " << bit;
-        // A wrong word can be K28.x, which costs two more.
+        // A wrong word can be a special character, which costs two more.
         EXPECT_TRUE(told.quality == kAtTheEnd[rules] || told.quality == kAtTheEnd[rules] - 2)
             << rules << " " << place << " " << bit << ": " << told.quality;
       }
@@ -229,6 +229,48 @@ TEST(DslQuality, FaultsOfTheEncoder_AreTold) {
       EXPECT_EQ(told.lost, row.fault == &slave_fault::kFastMarker) << what;
     }
   }
+}
+
+// R13: value 28 is accepted as D28 and as K28 in each channel. An encoder that always sends K28
+// there keeps its link and its quality; by the published check it loses both.
+TEST(DslQuality, EncoderWithK28_KeepsTheLink) {
+  for (const QualityRules rules : kRules) {
+    for (const bool strict : {true, false}) {
+      BenchSetup setup;
+      setup.rules.quality = rules;
+      setup.rules.check = strict ? dsl_model::CodeCheck::kStrict : dsl_model::CodeCheck::kPublished;
+      setup.encoder.vertical_k28 = true;
+      setup.encoder.summary = 0x1C;
+      setup.encoder.source.constant = 0x1CFC9C1C;
+      Bench bench(setup);
+      bench.run_until(5000 * kPsPerUs);
+      EXPECT_EQ(bench.link().restarts() == 0, strict) << static_cast<int>(rules);
+      if (!strict) continue;
+      EXPECT_EQ(bench.link().frame().quality, 15U);
+      EXPECT_EQ(bench.link().frame().safe1.position, 0x1CFC9C1CU);
+      EXPECT_EQ(bench.link().frame().position, 0x1CFC9C1CU);
+      EXPECT_FALSE(bench.link().frame().lost);
+    }
+  }
+}
+
+// R1: no link, no valid safe position.
+TEST(DslQuality, SafePositionsWithoutALink_AreNotValid) {
+  BenchSetup setup;
+  setup.encoder.source.constant = 0x11223344;
+  Bench bench(setup);
+  ASSERT_TRUE(bench.run_frames(81));
+  ASSERT_TRUE(bench.link().frame().safe1.valid && bench.link().frame().safe2.valid);
+  bench.encoder().set_fault(slave_fault::kSilent, true);
+  bench.line().slave_changed(bench.now());
+  unsigned frames = 0;
+  bench.on_frame = [&](const LinkFrame& frame) {
+    if (frame.linked) return;
+    ++frames;
+    EXPECT_FALSE(frame.safe1.valid || frame.safe2.valid);
+  };
+  bench.run_until(bench.now() + 600 * kPsPerUs);
+  EXPECT_GT(frames, 1U);
 }
 
 // A silent encoder ends the link within two frames; nothing is called certain meanwhile.

@@ -67,6 +67,7 @@ TEST(DslScenario, Defaults_AreThoseOfThePage) {
   EXPECT_EQ(rules.start_blocks, 4U);
   EXPECT_EQ(rules.vsync_limit, 64U);
   EXPECT_EQ(rules.stale_limit, 2U);
+  EXPECT_TRUE(rules.strict_id);
 }
 
 TEST(DslScenario, KeysAreRead) {
@@ -74,14 +75,16 @@ TEST(DslScenario, KeysAreRead) {
       std::string(kMaster) +
           "[chip]\nf_clk_hz = 75_007_500\n[chip.quirks]\nRECOVER = false\nSTRICT_CODE = false\n"
           "SAMPLE = 1\nRULES = \"firmware\"\nRSSI_TABLE = true\nRX_START = 15\nSTART_BLOCKS = 26\n"
-          "VSYNC_LIMIT = 255\nSTALE_LIMIT = 3\n[host]\ninterface = \"none\"\nlink_ms = 2.5\n" +
+          "VSYNC_LIMIT = 255\nSTALE_LIMIT = 3\nSTRICT_ID = false\n[host]\ninterface = "
+          "\"none\"\nlink_ms = 2.5\n" +
           "[[channel]]\nnumber = 1\nanswer_errors = 1e-4\nmaster_errors = 0.01\n"
           "[[channel.slave]]\nprotocol = \"dsl\"\nposition_bits = 40\nacceleration_bits = 8\n"
           "index = 15\nsigned = true\nsummary = 0x80\nsafe2_bits = 20\npipeline = 7\n"
           "s_par_bits = 3\nsync_frames = 16\nvsync_after = 9\nmsync = \"follow\"\n"
           "first = \"follow\"\nvsync_phase = 7\nstart_disparity = 1\ndirection_bit = 1\n"
           "lead_ns = 50\nlead_level = 0\nstatus2_k28 = false\nlatency_ns = 12.5\n"
-          "clock_ppm = -50\nsource = \"ramp\"\nstep = 3\n",
+          "clock_ppm = -50\nidentity_flip = 0x8_0001\nvertical_k28 = true\nsource = \"ramp\"\nstep "
+          "= 3\n",
       "motor.toml");
   EXPECT_EQ(scenario.chip.f_clk_hz, 75'007'500U);
   EXPECT_EQ(scenario.host.link_wait, 2500 * kPsPerUs);
@@ -95,6 +98,7 @@ TEST(DslScenario, KeysAreRead) {
   EXPECT_EQ(rules.start_blocks, 26U);
   EXPECT_EQ(rules.vsync_limit, 255U);
   EXPECT_EQ(rules.stale_limit, 3U);
+  EXPECT_FALSE(rules.strict_id);
   const DuplexConfig& cable = duplex(*scenario.channels.front().cable);
   EXPECT_EQ(cable.answer_errors, 1e-4);
   EXPECT_EQ(cable.master_errors, 0.01);
@@ -108,6 +112,8 @@ TEST(DslScenario, KeysAreRead) {
   EXPECT_EQ(encoder.pipeline, 7);
   EXPECT_EQ(encoder.s_par_bits, 3U);
   EXPECT_EQ(encoder.sync_frames, 16U);
+  EXPECT_EQ(encoder.identity_flip, 0x80001U);
+  EXPECT_TRUE(encoder.vertical_k28);
   EXPECT_EQ(encoder.vsync_after, 9U);
   EXPECT_EQ(encoder.msync, DslFollow::kFollow);
   EXPECT_EQ(encoder.first, DslFollow::kFollow);
