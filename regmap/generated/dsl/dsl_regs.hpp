@@ -312,9 +312,9 @@ using SAFE_PRST = Field<0x35, 7, 1, Access::kReadWrite, 0>;
 // As SUMMARY.
 using SAFE_SUM = Field<0x36, 0, 8, Access::kReadOnly, 0>;
 // Words missing one after another. Written: the number at which the link begins again, 5 bits, 1Fh
-// after a reset. SDK: read only.
+// after a reset; 0 is as 1. SDK: read only.
 using CNT = Field<0x38, 0, 8, Access::kReadWrite, 0>;
-// The number at which the link begins again.
+// The number at which the link begins again; 0 is as 1.
 using THRESH = Field<0x41, 0, 5, Access::kReadWrite, 31>;
 // It changes with each vertical frame.
 using TOG2 = Field<0x46, 7, 1, Access::kReadOnly, 0>;

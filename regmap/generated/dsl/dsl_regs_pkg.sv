@@ -464,14 +464,14 @@ package dsl_regs_pkg;
   localparam logic [7:0] SAFE_SUM_RESET = 8'd0;
 
   // Words missing one after another. Written: the number at which the link begins again, 5 bits,
-  // 1Fh after a reset. SDK: read only.
+  // 1Fh after a reset; 0 is as 1. SDK: read only.
   localparam logic [7:0] CNT_ADDR = 8'h38;
   localparam logic [31:0] CNT_LSB = 32'd0;
   localparam logic [31:0] CNT_W = 32'd8;
   localparam logic [7:0] CNT_MASK = 8'hFF;
   localparam logic [7:0] CNT_RESET = 8'd0;
 
-  // The number at which the link begins again.
+  // The number at which the link begins again; 0 is as 1.
   localparam logic [7:0] THRESH_ADDR = 8'h41;
   localparam logic [31:0] THRESH_LSB = 32'd0;
   localparam logic [31:0] THRESH_W = 32'd5;

@@ -189,9 +189,9 @@ using DELAY_BITS = Field<0x100, 12, 4, Access::kReadOnly, 0>;
 using QUALITY = Field<0x100, 8, 4, Access::kReadOnly, 0>;
 // SCE of the last vertical frame.
 using SAFE_ERROR = Field<0x100, 5, 1, Access::kReadOnly, 0>;
-// The last vertical frame had a good safe position 2.
+// The last vertical frame of this link had a good safe position 2.
 using VPOS2_VALID = Field<0x100, 4, 1, Access::kReadOnly, 0>;
-// The last vertical frame had a good safe position 1.
+// The last vertical frame of this link had a good safe position 1.
 using VPOS_VALID = Field<0x100, 3, 1, Access::kReadOnly, 0>;
 // The encoder has sent VSYNC.
 using VSYNC_SEEN = Field<0x100, 2, 1, Access::kReadOnly, 0>;
@@ -222,9 +222,9 @@ using FRAME_DELAY_BITS = Field<0x11C, 12, 4, Access::kReadOnly, 0>;
 using FRAME_QUALITY = Field<0x11C, 8, 4, Access::kReadOnly, 0>;
 // SCE of the last vertical frame.
 using FRAME_SAFE_ERROR = Field<0x11C, 5, 1, Access::kReadOnly, 0>;
-// The last vertical frame had a good safe position 2.
+// The last vertical frame of this link had a good safe position 2.
 using FRAME_VPOS2_VALID = Field<0x11C, 4, 1, Access::kReadOnly, 0>;
-// The last vertical frame had a good safe position 1.
+// The last vertical frame of this link had a good safe position 1.
 using FRAME_VPOS_VALID = Field<0x11C, 3, 1, Access::kReadOnly, 0>;
 // The encoder has sent VSYNC.
 using FRAME_VSYNC_SEEN = Field<0x11C, 2, 1, Access::kReadOnly, 0>;
@@ -236,7 +236,7 @@ using FRAME_POS_LOST = Field<0x11C, 0, 1, Access::kReadOnly, 0>;
 using SAFE1_LO = Field<0x120, 0, 32, Access::kReadOnly, 0>;
 // Bits 39 to 32.
 using SAFE1_HI = Field<0x124, 0, 8, Access::kReadOnly, 0>;
-// The last vertical frame was good.
+// The last vertical frame of this link was good.
 using SAFE1_GOOD = Field<0x128, 31, 1, Access::kReadOnly, 0>;
 // Its code or its CRC was wrong.
 using SAFE1_SCE = Field<0x128, 30, 1, Access::kReadOnly, 0>;
@@ -244,13 +244,13 @@ using SAFE1_SCE = Field<0x128, 30, 1, Access::kReadOnly, 0>;
 using SAFE1_SUMMARY = Field<0x128, 16, 8, Access::kReadOnly, 0>;
 // CRC of the last good one, as it was received.
 using SAFE1_CRC = Field<0x128, 0, 16, Access::kReadOnly, 0>;
-// Frames since it came.
+// Frames since it came; all ones: none in this link, or no link.
 using SAFE1_AGE = Field<0x12C, 0, 32, Access::kReadOnly, 0>;
 // Bits 31 to 0 of the last good safe position 2, as it was received.
 using SAFE2_LO = Field<0x130, 0, 32, Access::kReadOnly, 0>;
 // Bits 39 to 32.
 using SAFE2_HI = Field<0x134, 0, 8, Access::kReadOnly, 0>;
-// The last vertical frame was good.
+// The last vertical frame of this link was good.
 using SAFE2_GOOD = Field<0x138, 31, 1, Access::kReadOnly, 0>;
 // Its code or its CRC was wrong.
 using SAFE2_SCE = Field<0x138, 30, 1, Access::kReadOnly, 0>;
@@ -258,9 +258,9 @@ using SAFE2_SCE = Field<0x138, 30, 1, Access::kReadOnly, 0>;
 using SAFE2_STATUS2 = Field<0x138, 16, 8, Access::kReadOnly, 0>;
 // CRC of the last good one, as it was received.
 using SAFE2_CRC = Field<0x138, 0, 16, Access::kReadOnly, 0>;
-// Frames since it came.
+// Frames since it came; all ones: none in this link, or no link.
 using SAFE2_AGE = Field<0x13C, 0, 32, Access::kReadOnly, 0>;
-// Words that the strict check of the code alone refused. It wraps.
+// Words that the strict check of the code alone refused, from the identity on. It wraps.
 using CODE_ILLEGAL = Field<0x140, 16, 16, Access::kReadOnly, 0>;
 // Restarts of the link. It wraps.
 using NUM_RESETS = Field<0x140, 0, 16, Access::kReadOnly, 0>;

@@ -166,14 +166,14 @@ package dsl_page_regs_pkg;
   localparam logic [31:0] SAFE_ERROR_MASK = 32'h00000020;
   localparam logic [0:0] SAFE_ERROR_RESET = 1'd0;
 
-  // The last vertical frame had a good safe position 2.
+  // The last vertical frame of this link had a good safe position 2.
   localparam logic [11:0] VPOS2_VALID_ADDR = 12'h100;
   localparam logic [31:0] VPOS2_VALID_LSB = 32'd4;
   localparam logic [31:0] VPOS2_VALID_W = 32'd1;
   localparam logic [31:0] VPOS2_VALID_MASK = 32'h00000010;
   localparam logic [0:0] VPOS2_VALID_RESET = 1'd0;
 
-  // The last vertical frame had a good safe position 1.
+  // The last vertical frame of this link had a good safe position 1.
   localparam logic [11:0] VPOS_VALID_ADDR = 12'h100;
   localparam logic [31:0] VPOS_VALID_LSB = 32'd3;
   localparam logic [31:0] VPOS_VALID_W = 32'd1;
@@ -279,14 +279,14 @@ package dsl_page_regs_pkg;
   localparam logic [31:0] FRAME_SAFE_ERROR_MASK = 32'h00000020;
   localparam logic [0:0] FRAME_SAFE_ERROR_RESET = 1'd0;
 
-  // The last vertical frame had a good safe position 2.
+  // The last vertical frame of this link had a good safe position 2.
   localparam logic [11:0] FRAME_VPOS2_VALID_ADDR = 12'h11C;
   localparam logic [31:0] FRAME_VPOS2_VALID_LSB = 32'd4;
   localparam logic [31:0] FRAME_VPOS2_VALID_W = 32'd1;
   localparam logic [31:0] FRAME_VPOS2_VALID_MASK = 32'h00000010;
   localparam logic [0:0] FRAME_VPOS2_VALID_RESET = 1'd0;
 
-  // The last vertical frame had a good safe position 1.
+  // The last vertical frame of this link had a good safe position 1.
   localparam logic [11:0] FRAME_VPOS_VALID_ADDR = 12'h11C;
   localparam logic [31:0] FRAME_VPOS_VALID_LSB = 32'd3;
   localparam logic [31:0] FRAME_VPOS_VALID_W = 32'd1;
@@ -328,7 +328,7 @@ package dsl_page_regs_pkg;
   localparam logic [31:0] SAFE1_HI_MASK = 32'h000000FF;
   localparam logic [7:0] SAFE1_HI_RESET = 8'd0;
 
-  // The last vertical frame was good.
+  // The last vertical frame of this link was good.
   localparam logic [11:0] SAFE1_GOOD_ADDR = 12'h128;
   localparam logic [31:0] SAFE1_GOOD_LSB = 32'd31;
   localparam logic [31:0] SAFE1_GOOD_W = 32'd1;
@@ -356,7 +356,7 @@ package dsl_page_regs_pkg;
   localparam logic [31:0] SAFE1_CRC_MASK = 32'h0000FFFF;
   localparam logic [15:0] SAFE1_CRC_RESET = 16'd0;
 
-  // Frames since it came.
+  // Frames since it came; all ones: none in this link, or no link.
   localparam logic [11:0] SAFE1_AGE_ADDR = 12'h12C;
   localparam logic [31:0] SAFE1_AGE_LSB = 32'd0;
   localparam logic [31:0] SAFE1_AGE_W = 32'd32;
@@ -377,7 +377,7 @@ package dsl_page_regs_pkg;
   localparam logic [31:0] SAFE2_HI_MASK = 32'h000000FF;
   localparam logic [7:0] SAFE2_HI_RESET = 8'd0;
 
-  // The last vertical frame was good.
+  // The last vertical frame of this link was good.
   localparam logic [11:0] SAFE2_GOOD_ADDR = 12'h138;
   localparam logic [31:0] SAFE2_GOOD_LSB = 32'd31;
   localparam logic [31:0] SAFE2_GOOD_W = 32'd1;
@@ -405,14 +405,14 @@ package dsl_page_regs_pkg;
   localparam logic [31:0] SAFE2_CRC_MASK = 32'h0000FFFF;
   localparam logic [15:0] SAFE2_CRC_RESET = 16'd0;
 
-  // Frames since it came.
+  // Frames since it came; all ones: none in this link, or no link.
   localparam logic [11:0] SAFE2_AGE_ADDR = 12'h13C;
   localparam logic [31:0] SAFE2_AGE_LSB = 32'd0;
   localparam logic [31:0] SAFE2_AGE_W = 32'd32;
   localparam logic [31:0] SAFE2_AGE_MASK = 32'hFFFFFFFF;
   localparam logic [31:0] SAFE2_AGE_RESET = 32'd0;
 
-  // Words that the strict check of the code alone refused. It wraps.
+  // Words that the strict check of the code alone refused, from the identity on. It wraps.
   localparam logic [11:0] CODE_ILLEGAL_ADDR = 12'h140;
   localparam logic [31:0] CODE_ILLEGAL_LSB = 32'd16;
   localparam logic [31:0] CODE_ILLEGAL_W = 32'd16;
