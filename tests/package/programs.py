@@ -14,7 +14,7 @@ def call(*command, **options):
     """What a program prints. The test ends with all of its output if it fails."""
     words = [str(word) for word in command]
     done = subprocess.run(words, check=False, text=True, capture_output=True,
-                          **{"timeout": 1500} | options)
+                          **{"timeout": 2500} | options)
     if done.returncode != 0:
         raise AssertionError(f"{' '.join(words)}: exit status {done.returncode}\n"
                              f"{done.stdout}{done.stderr}")
