@@ -79,6 +79,8 @@ def test_repr_tells_scenario_master_slaves_and_time():
     (lambda c: c.set_data(1, -1), "VALUE", "raw is at most 64 bits, not -1"),
     (lambda c: c.slave_register(9, 0), "UNKNOWN", "no slave 9; the scenario has 1"),
     (lambda c: c.set_slave_register(9, 0, 0), "UNKNOWN", "no slave 9; the scenario has 1"),
+    (lambda c: c.slave_register(1, 256), "VALUE", "^slave_register 1: .*address and value are 0 to 0xFF"),
+    (lambda c: c.set_data(-1, 0), "VALUE", "^set_data -1: slave counts from 1"),
     (lambda c: c.sent(1), "VALUE", "no word of frame 0; it has sent no frame yet"),
     (lambda c: c.sent(3), "UNKNOWN", "no slave 3"),
     (lambda c: c.pin("MA9"), "UNKNOWN", "^pin MA9: there is no pin 'MA9'; did you mean MA"),

@@ -41,6 +41,10 @@ class NameMistake(Error, AttributeError):
     """An attribute that is not there, or is not assigned."""
 
 
+class RangeMistake(Error, OverflowError):
+    """A number that does not fit its C type."""
+
+
 def similar(name: str, names: Iterable[str]) -> str:
     """The end of a message about an unknown name: those that look like it, or nothing."""
     by_upper = {one.upper(): one for one in names}

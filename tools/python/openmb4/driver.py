@@ -7,7 +7,7 @@ from typing import Any, Callable, List, Optional, Sequence, Tuple
 import numpy as np
 import numpy.typing as npt
 
-from ._library import Error, driver_error, ffi, lib, simulator_error
+from ._library import Error, RangeMistake, driver_error, ffi, lib, simulator_error
 from ._opened import Opened
 from .config import Config, from_c, to_c, what_is_right
 from .reading import Identity, Reading
@@ -54,7 +54,10 @@ class Driver:
         """`what` is the call for messages, `right` tells what its arguments take."""
         with self._simulator._lock:
             self._begin()
-            result = self._simulator._call(function, self._device, *arguments)
+            try:
+                result = self._simulator._call(function, self._device, *arguments)
+            except OverflowError as error:
+                raise RangeMistake(f"{what}: {right or error}", "MB4_INVALID_ARGUMENT") from error
             self._check_simulator()
         if result.code == lib.MB4_OK:
             return

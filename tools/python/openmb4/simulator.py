@@ -11,7 +11,7 @@ from typing import (Any, Callable, Dict, Iterator, List, Mapping, NamedTuple, Op
 
 import numpy as np
 
-from ._library import Error, ffi, lib, similar, simulator_error
+from ._library import Error, RangeMistake, ffi, lib, similar, simulator_error
 from ._opened import ERROR_BYTES, Opened, Scenario, Text, document
 from .codes import SimulatorCode
 from .driver import Driver
@@ -213,7 +213,11 @@ class Simulator(Opened):
         """A call with a slave; its error names those that there are, or by right(description of the
         slave) what the value may be."""
         with self._lock:
-            result: int = self._call(function, self._sim, slave, *arguments)
+            try:
+                result: int = self._call(function, self._sim, slave, *arguments)
+            except OverflowError as error:
+                raise RangeMistake(f"{what}: slave counts from 1, address and value are 0 to 0xFF",
+                                   "MB4SIM_ERROR_VALUE") from error
             if result >= 0:
                 return
             found = self._describe()
