@@ -243,17 +243,13 @@ module dsl_program (
       SAFE + 8'd14:     row = minus(NOWHERE, WRONG, FAST, 3'd4);
       SAFE + 8'd15:     row = jump_unless(ZERO, FAIL);
       SAFE + 8'd16:     row = set(ALIGNED, ENDED);
-      // The position is set.
-      PLACE:            row = copy(FAST, WRONG, 3'd4);
+      PLACE:            row = copy(FAST, WRONG, 3'd4);  // the position is set
       PLACE + 8'd1:     row = copy(KEPT, WRONG, 3'd4);
       PLACE + 8'd2:     row = set(SECOND, ENDED);
-      // Nothing is done.
-      PAUSE:            row = set(FOURTH, ENDED);
-      // There is no safe position.
-      WITHOUT:          row = jump_in(FOURTH, ENDED);
+      PAUSE:            row = set(FOURTH, ENDED);  // nothing is done
+      WITHOUT:          row = jump_in(FOURTH, ENDED);  // there is no safe position
       WITHOUT + 8'd1:   row = jump_in(ALIGNED, ENDED);
-      // Alignment begins anew.
-      FAIL:             row = set(FIRST, ENDED);
+      FAIL:             row = set(FIRST, ENDED);  // alignment begins anew
       // The vertical frame of a loss ends.
       KEEP:             row = copy(KEPT, FAST, 3'd4);
       KEEP + 8'd1:      row = copy(BY, SINCE, 3'd0);
@@ -321,11 +317,9 @@ module dsl_program (
       SHOW + 8'd2:      row = masked(NOWHERE, FAST, TOP, 3'd4);
       SHOW + 8'd3:      row = jump_if(ZERO, STATUS);
       SHOW + 8'd4:      row = plus_not(WIDE, WIDE, MASK, 3'd7);
-      // Its last value.
-      STATUS:           row = take(COUNT, IN_STATUS, 3'd3) | UPPER;
+      STATUS:           row = take(COUNT, IN_STATUS, 3'd3) | UPPER;  // its last value
       STATUS + 8'd1:    row = tell(1'b0);
-      // Waits.
-      IDLE:             row = jump_if(FRAME, BEGIN);
+      IDLE:             row = jump_if(FRAME, BEGIN);  // waits
       IDLE + 8'd1:      row = jump_if(BEGUN, LINK);
       IDLE + 8'd2:      row = jump_if(OVER, CLOSE);
       IDLE + 8'd3:      row = jump_if(ALWAYS, IDLE);
