@@ -4,8 +4,8 @@
 """Generate the files of each register map.
 
 Without a file on the command line: generated/NAME/ from each NAME.rdl in regmap/. A map is compiled, flattened into
-plain lists (model.py) and handed to one small template per output (templates/). IP-XACT and HTML come from the
-PeakRDL exporters. The output depends on nothing but the RDL, the version of the project, the templates and the pinned
+plain lists (model.py) and handed to one small template per output (templates/). A map of 32-bit words also becomes
+a CMSIS-SVD file for debuggers. IP-XACT and HTML come from the PeakRDL exporters. The output depends on nothing but the RDL, the version of the project, the templates and the pinned
 packages of requirements.txt.
 """
 
@@ -15,6 +15,7 @@ import re
 import tempfile
 import textwrap
 from pathlib import Path
+from xml.sax.saxutils import escape
 
 import jinja2
 from peakrdl_html import HTMLExporter
@@ -65,6 +66,8 @@ def environment():
         cstring=json.dumps,
         comment=comment,
         code_range=code_range,
+        xml=lambda text: escape(str(text)),
+        sum_of_resets=lambda fields: sum(f.reset << f.lsb for f in fields),
     )
     return env
 
@@ -78,7 +81,9 @@ def json_text(model):
                 "ident": f.ident, "index": f.index, "name": f.name, "label": f.label, "address": f.address,
                 "lsb": f.lsb, "width": f.width, "access": f.access, "reset": f.reset, "table": f.table, "page": f.page,
                 "codes": [[c["first"], c["last"]] for c in f.codes],
-            } | ({} if f.part is None else {"part": f.part})  # fmt: skip
+            }
+            | ({"names": [c["word"] for c in f.codes], "meanings": [c["meaning"] for c in f.codes]} if f.codes else {})
+            | ({} if f.part is None else {"part": f.part})  # fmt: skip
         )
 
     parts = [
@@ -134,6 +139,9 @@ def generate(rdl, out):
         check_unique(name, text)
         (out / name).write_text(text, encoding="utf-8")
     json_name = f"{model.prefix}_regs.json"
+    if model.register_width == 32:
+        text = env.get_template("svd.j2").render(map=model, banner=banner, version=version())
+        (out / f"{model.prefix}.svd").write_text(text, encoding="utf-8")
     (out / json_name).write_text(json_text(model), encoding="utf-8")
     (out / f"{json_name}.license").write_text(f"{banner}\n{SPDX[0]}\n{SPDX[1]}\n", encoding="utf-8")
     write_ipxact(model, tops, out / f"{model.prefix}.ipxact.xml")

@@ -390,6 +390,33 @@ class Map:
         return [(n, f.lsb, e) for n, f in fields for e in self.enums if {f.ident, f.ident + "x"} & set(e.users)]
 
     @property
+    def words_by_address(self):
+        """(name, title, address, fields) of every register, each element of an array by itself."""
+        named = {
+            r.address + i * r.stride: (r.ident + (str(i + 1) if r.count > 1 else ""), r.title)
+            for r in self.registers
+            for i in range(r.count)
+        }
+        words = {}
+        for f in self.fields:
+            words.setdefault(f.address, []).append(f)
+        unnamed = ("WORD_{:X}", "Element of an array in an array")
+        return [
+            (*(text.format(address) for text in named.get(address, unnamed)), address, fields)
+            for address, fields in sorted(words.items())
+        ]
+
+    @property
+    def code_table(self):
+        """Each list of codes once, and its place in the sum of all: (codes, {str(codes): first})."""
+        table, places = [], {}
+        for f in self.fields + self.alternate_fields:
+            if f.codes and f.access != "rom" and str(f.codes) not in places:
+                places[str(f.codes)] = len(table)
+                table += f.codes
+        return table, places
+
+    @property
     def groups(self):
         """Whole registers that the datasheet also names: (identifier, register)."""
         taken = {f.ident for f in self.families}
@@ -448,14 +475,15 @@ def access_of(node):
 
 def codes_of(node):
     codes = [
-        {"first": r.first, "last": r.last, "name": "", "meaning": r.meaning}
+        {"first": r.first, "last": r.last, "name": "", "word": "", "meaning": r.meaning}
         for r in node.get_property("code_ranges", default=None) or []
     ]
     for m in node.get_property("encode") or []:
         ranges = [c for c in codes if c["first"] == m.value]  # a rule may go on from a named code
         last = ranges[0]["last"] if ranges else m.value
         codes = [c for c in codes if c not in ranges]
-        codes.append({"first": m.value, "last": last, "name": m.name, "meaning": m.rdl_desc.rstrip(".")})
+        codes.append({"first": m.value, "last": last, "name": m.name, "word": m.rdl_name or m.name,
+                      "meaning": m.rdl_desc.rstrip(".")})  # fmt: skip
     return sorted(codes, key=lambda c: (c["first"], c["last"]))
 
 

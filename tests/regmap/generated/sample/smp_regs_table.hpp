@@ -14,6 +14,14 @@
 
 namespace test::smp {
 
+// What codes `first` to `last` of a field mean.
+struct CodeInfo {
+  std::uint32_t first;
+  std::uint32_t last;
+  const char* name;     // empty: they have none
+  const char* meaning;  // for codes that follow a rule a formula: f_CLK / 20 / (code + 1)
+};
+
 struct FieldInfo {
   const char* name;
   const char* alternate;  // other meaning of the same bits, or nullptr
@@ -23,54 +31,63 @@ struct FieldInfo {
   Access access;
   std::uint32_t reset;
   const char* description;
+  std::uint16_t first_code;  // in kCodes
+  std::uint16_t codes;       // how many; 0: any value
 };
+
+// Lists of codes, one behind the other.
+inline constexpr std::array<CodeInfo, 3> kCodes{{
+    {0, 0, "OFF", "Nothing runs"},
+    {1, 1, "SINGLE", "One measurement"},
+    {5, 5, "ALWAYS", "One measurement after the other"},
+}};
 
 // By address, most significant bit first; constant bits are left out.
 inline constexpr std::array<FieldInfo, 22> kFields{{
     {"TOP", nullptr, 0x000, 31, 1, Access::kReadWrite, 0,
-     "Highest bit."},
+     "Highest bit.", 0, 0},
     {"MODE", nullptr, 0x000, 12, 3, Access::kReadWrite, 5,
-     "What runs."},
+     "What runs.", 0, 3},
     {"START", nullptr, 0x000, 1, 1, Access::kSelfClearing, 0,
-     "Starts once."},
+     "Starts once.", 0, 0},
     {"STOP", nullptr, 0x000, 0, 1, Access::kSelfClearing, 0,
-     "Clears itself."},
+     "Clears itself.", 0, 0},
     {"COUNT", nullptr, 0x004, 16, 8, Access::kReadClears, 0,
-     "Number of events, cleared by reading."},
+     "Number of events, cleared by reading.", 0, 0},
     {"LATE", nullptr, 0x004, 2, 1, Access::kWriteZeroClears, 0,
-     "Set by the line, written 0 clears."},
+     "Set by the line, written 0 clears.", 0, 0},
     {"ARMED", nullptr, 0x004, 1, 1, Access::kWriteOneSets, 0,
-     "Set by a write of 1."},
+     "Set by a write of 1.", 0, 0},
     {"DONE", nullptr, 0x004, 0, 1, Access::kWriteOneClears, 0,
-     "Set by the line, written 1 clears."},
+     "Set by the line, written 1 clears.", 0, 0},
     {"WHOLE", nullptr, 0x008, 0, 32, Access::kReadWrite, 3735928559,
-     "All bits."},
+     "All bits.", 0, 0},
     {"KEY", nullptr, 0x00C, 0, 16, Access::kWriteOnly, 0,
-     "Only written."},
+     "Only written.", 0, 0},
     {"DELAY1", nullptr, 0x100, 0, 12, Access::kReadWrite, 291,
-     "Delay of line 1."},
+     "Delay of line 1.", 0, 0},
     {"ERROR1", nullptr, 0x104, 0, 1, Access::kWriteOneClears, 0,
-     "Error of line 1."},
+     "Error of line 1.", 0, 0},
     {"DELAY2", nullptr, 0x110, 0, 12, Access::kReadWrite, 291,
-     "Delay of line 2."},
+     "Delay of line 2.", 0, 0},
     {"ERROR2", nullptr, 0x114, 0, 1, Access::kWriteOneClears, 0,
-     "Error of line 2."},
+     "Error of line 2.", 0, 0},
     {"DELAY3", nullptr, 0x120, 0, 12, Access::kReadWrite, 291,
-     "Delay of line 3."},
+     "Delay of line 3.", 0, 0},
     {"ERROR3", nullptr, 0x124, 0, 1, Access::kWriteOneClears, 0,
-     "Error of line 3."},
+     "Error of line 3.", 0, 0},
     {"POSITION1(31:0)", nullptr, 0xF00, 0, 32, Access::kReadOnly, 0,
-     "Part of the position."},
+     "Part of the position.", 0, 0},
     {"POSITION1(63:32)", nullptr, 0xF04, 0, 32, Access::kReadOnly, 0,
-     "Part of the position."},
+     "Part of the position.", 0, 0},
     {"POSITION2(31:0)", nullptr, 0xF08, 0, 32, Access::kReadOnly, 0,
-     "Part of the position."},
+     "Part of the position.", 0, 0},
     {"POSITION2(63:32)", nullptr, 0xF0C, 0, 32, Access::kReadOnly, 0,
-     "Part of the position."},
+     "Part of the position.", 0, 0},
     {"POSITION3(31:0)", nullptr, 0xF10, 0, 32, Access::kReadOnly, 0,
-     "Part of the position."},
+     "Part of the position.", 0, 0},
     {"POSITION3(63:32)", nullptr, 0xF14, 0, 32, Access::kReadOnly, 0,
-     "Part of the position."},
+     "Part of the position.", 0, 0},
 }};
 
 }  // namespace test::smp
