@@ -20,7 +20,7 @@ test_packages=(
   clang-format clang-tidy gcovr
   gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib linux-libc-dev
   arduino-core-avr avr-libc gcc-avr gcc-riscv64-unknown-elf picolibc-riscv64-unknown-elf qemu-system-arm
-  mypy python3-cffi python3-distributed python3-ipykernel python3-matplotlib python3-nbclient python3-numpy
+  mypy python3-cffi python3-distributed python3-ipykernel python3-jsonschema python3-matplotlib python3-nbclient python3-numpy
   python3-pandas python3-pytest python3-tqdm python3-yaml
 )
 python_packages=(

@@ -140,7 +140,7 @@ def generate(rdl, out):
         (out / name).write_text(text, encoding="utf-8")
     json_name = f"{model.prefix}_regs.json"
     if model.register_width == 32:
-        text = env.get_template("svd.j2").render(map=model, banner=banner, version=version())
+        text = env.get_template("svd.j2").render(map=model, banner=banner)
         (out / f"{model.prefix}.svd").write_text(text, encoding="utf-8")
     (out / json_name).write_text(json_text(model), encoding="utf-8")
     (out / f"{json_name}.license").write_text(f"{banner}\n{SPDX[0]}\n{SPDX[1]}\n", encoding="utf-8")

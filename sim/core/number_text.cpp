@@ -42,6 +42,12 @@ std::optional<double> parse_real(std::string_view text) {
   return value;
 }
 
+std::string hex_word(std::uint64_t value) {
+  char text[20];
+  std::snprintf(text, sizeof(text), "0x%llX", static_cast<unsigned long long>(value));
+  return text;
+}
+
 std::string plain(double value) {
   std::ostringstream out;
   out << value;

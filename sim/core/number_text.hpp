@@ -20,6 +20,9 @@ std::optional<std::uint64_t> parse_word(std::string_view text);
 // Returns nothing if the text is no decimal number, or has more behind it.
 std::optional<double> parse_real(std::string_view text);
 
+// Returns "0x2A".
+std::string hex_word(std::uint64_t value);
+
 // Returns `value` as an output stream writes it.
 std::string plain(double value);
 

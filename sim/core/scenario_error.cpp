@@ -9,13 +9,14 @@ SourcePos TableSource::of(std::string_view key) const {
   return found == keys.end() ? table : found->second;
 }
 
-ScenarioError::ScenarioError(const std::string& file, SourcePos where, std::string_view key,
+ScenarioError::ScenarioError(const std::string& file, const SourcePos& where, std::string_view key,
                              const std::string& message)
     : ScenarioError(file + ":" +
                     (where.line == 0
                          ? ""
                          : std::to_string(where.line) + ":" + std::to_string(where.column) + ":") +
-                    " key '" + std::string(key) + "': " + message) {}
+                    " key '" + std::string(key) + "': " + message +
+                    (where.table.empty() ? "" : " (in " + where.table + ")")) {}
 
 std::string left_out(std::string_view name, std::string_view option) {
   return "this build has no \"" + std::string(name) + "\"; `cmake --preset default " +

@@ -19,6 +19,7 @@ namespace mb4::sim {
 struct SourcePos {
   unsigned line = 0;
   unsigned column = 0;
+  std::string table{};  // "[host]" or "[[channel]]"; empty: the file itself
 };
 
 // The place of a table in the scenario, and of the values of its keys.
@@ -31,12 +32,12 @@ struct TableSource {
 };
 
 // A mistake in a scenario or in a file that it names. what() is one complete line:
-// "file:line:column: key 'x': message". Line and column are missing where there is none. Control
-// characters are escaped (one_line.hpp).
+// "file:line:column: key 'x': message (in [table])". Line, column and table are missing where there
+// is none. Control characters are escaped (one_line.hpp).
 class ScenarioError : public std::runtime_error {
  public:
   explicit ScenarioError(const std::string& message) : std::runtime_error(one_line(message)) {}
-  ScenarioError(const std::string& file, SourcePos where, std::string_view key,
+  ScenarioError(const std::string& file, const SourcePos& where, std::string_view key,
                 const std::string& message);
 };
 

@@ -1,15 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
-#include "suggestion.hpp"
+#include "sim/core/suggestion.hpp"
 
 #include <algorithm>
 #include <utility>
 
-namespace mb4::tool {
+namespace mb4::sim {
 namespace {
 
 constexpr std::size_t kFar = 1000;
 constexpr std::size_t kShortestBeginning = 3;
+constexpr std::size_t kSameBeginning = 2;  // letters that may differ behind it
 
 // Letters to add, leave out or change, or neighbours to swap.
 std::size_t distance(std::string_view a, std::string_view b) {
@@ -30,21 +31,41 @@ std::size_t distance(std::string_view a, std::string_view b) {
   return last.back();
 }
 
-}  // namespace
-
-std::string suggestion(std::string_view word, const std::vector<std::string>& known) {
-  std::pair<std::size_t, std::size_t> best{kFar, 0};  // how far, how long
-  const std::string* nearest = nullptr;
-  for (const std::string& one : known) {
-    const bool begins = word.size() >= kShortestBeginning && one.starts_with(word);
-    const std::size_t far = begins ? 0 : distance(word, one);
-    if (far > std::max<std::size_t>(1, word.size() / 3)) continue;
-    if (const std::pair rank{far, one.size()}; rank < best) {
-      best = rank;
-      nearest = &one;
-    }
-  }
-  return nearest == nullptr ? "" : ", did you mean '" + *nearest + "'?";
+// How far `word` is from `one`, or kFar.
+std::size_t far_from(std::string_view word, std::string_view one) {
+  const bool long_enough = word.size() >= kShortestBeginning;
+  if (one.starts_with(word) && one.substr(word.size()).starts_with('_')) return 0;
+  if (long_enough && one.starts_with(word)) return 0;
+  const std::size_t far = distance(word, one);
+  if (far <= std::max<std::size_t>(1, word.size() / 3)) return far;
+  const std::string_view beginning = word.substr(0, kShortestBeginning);
+  if (long_enough && far <= kSameBeginning && one.starts_with(beginning)) return far;
+  const bool part = one.size() >= kShortestBeginning && word.find(one) != std::string_view::npos;
+  return part ? kFar - one.size() : kFar;
 }
 
-}  // namespace mb4::tool
+}  // namespace
+
+std::string nearest(std::string_view word, const std::vector<std::string>& known) {
+  std::pair<std::size_t, std::size_t> best{kFar, 0};  // how far, how long
+  std::string found;
+  for (const std::string& one : known) {
+    const std::pair rank{far_from(word, one), one.size()};
+    if (rank >= best) continue;
+    best = rank;
+    found = one;
+  }
+  return found;
+}
+
+std::string suggestion(std::string_view word, const std::vector<std::string>& known) {
+  const std::string meant = nearest(word, known);
+  return meant.empty() ? "" : ", did you mean '" + meant + "'?";
+}
+
+std::string did_you_mean(std::string_view word, const std::vector<std::string>& known) {
+  const std::string meant = nearest(word, known);
+  return meant.empty() ? "" : "; did you mean \"" + meant + "\"?";
+}
+
+}  // namespace mb4::sim

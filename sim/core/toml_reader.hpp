@@ -8,9 +8,10 @@
 #define MB4SIM_TOML_READER_HPP_
 
 #include <cstdint>
+#include <functional>
 #include <initializer_list>
+#include <map>
 #include <optional>
-#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -46,16 +47,33 @@ struct TomlValue {
 };
 
 struct TomlEntry {
-  std::string key;
+  std::string key{};
   SourcePos where;  // of the key
   TomlValue value;
+};
+
+// What a reader asks for: a key of a table, and what its value may be.
+struct AskedKey {
+  enum class Kind { kInteger, kNumber, kBoolean, kText, kWord, kChoice, kTable, kTables, kOther };
+  std::string table{};  // "[host]"
+  std::string key{};
+  Kind kind = Kind::kOther;
+  double minimum = 0;  // kInteger, kNumber
+  double maximum = 0;
+  std::vector<std::string> words{};  // kChoice; kOther: kinds of value, or words in quotes
 };
 
 // State that the readers of one file share.
 struct TomlFile {
   std::string name;
   std::optional<ScenarioError> missing;  // the first key that is not there
+  // Where an unknown key of a table should stand; empty if nowhere.
+  std::function<std::string(const TomlValue& table, std::string_view key)> advice{};
+  std::vector<AskedKey>* asked = nullptr;  // takes all that is asked for
 };
+
+// A value as a scenario has it; empty for a table or an array.
+std::string toml_text(const TomlValue& value);
 
 // Parses TOML and returns the table of the whole file. Throws ScenarioError with the place of a
 // mistake, which begins with `name`.
@@ -73,13 +91,15 @@ class TomlReader {
   static void throw_missing(const TomlFile& file);
   // Names keys that are known although the caller does not ask for them.
   void know(std::initializer_list<std::string_view> keys) {
-    known_.insert(keys.begin(), keys.end());
+    for (const std::string_view key : keys) ask(key, {});
   }
+  // Names the words that a text() may be, for those who list the keys.
+  void offer(std::string_view key, std::span<const std::string_view> words);
 
   // Throws "file:line:column: key 'key': message". The place is that of the key's value if it is
   // there, else that of the table.
   [[noreturn]] void fail(std::string_view key, const std::string& message) const;
-  [[noreturn]] void fail_at(SourcePos where, std::string_view key,
+  [[noreturn]] void fail_at(const SourcePos& where, std::string_view key,
                             const std::string& message) const;
 
   bool has(std::string_view key) const { return table_.find(key) != nullptr; }
@@ -101,7 +121,9 @@ class TomlReader {
   }
   // The name of a file: text without a NUL character.
   std::optional<std::string> file_name(std::string_view key);
-  const TomlValue* value(std::string_view key);
+  // `accepts`, for those who list the keys: kinds of value ("array"), words ("\"adaptive\"").
+  const TomlValue* value(std::string_view key,
+                         std::initializer_list<std::string_view> accepts = {});
   const TomlValue* table(std::string_view key);
   // An array of tables ([[key]]); null if it is absent.
   const std::vector<TomlValue>* tables(std::string_view key);
@@ -113,9 +135,17 @@ class TomlReader {
   TomlFile& file() const { return file_; }
 
  private:
+  enum class Form { kValue, kTable, kTables };  // how the user writes it
+
+  const TomlValue* ask(std::string_view key, AskedKey what, Form form = Form::kValue);
+  std::string header(std::string_view key, Form form) const;
+  // Of the key's value if it is there, else of the table.
+  SourcePos place_of(std::string_view key) const;
+  std::string unknown(const TomlEntry& entry) const;
+
   const TomlValue& table_;
   TomlFile& file_;
-  std::set<std::string, std::less<>> known_;
+  std::map<std::string, Form, std::less<>> known_;
 };
 
 }  // namespace mb4::sim

@@ -58,7 +58,7 @@ void read_bit_flip(TomlReader& reader, const FaultLimits& /*limits*/, FaultConfi
     if (reader.has("bits")) reader.fail("answer_bit", "cannot be given together with bits");
     fault.bits.push_back(static_cast<unsigned>(*bit));
   }
-  const TomlValue* list = reader.value("bits");
+  const TomlValue* list = reader.value("bits", {"array"});
   if (list == nullptr) return;
   const std::string wanted = "expected a list of 0 to " + std::to_string(most);
   if (list->items.empty()) reader.fail("bits", wanted);

@@ -100,7 +100,7 @@ void read_glitch_width(TomlReader& reader, WireFaults& plain, WireFaults& prefix
 
 std::map<std::uint64_t, std::vector<unsigned>> read_flips(TomlReader& reader) {
   std::map<std::uint64_t, std::vector<unsigned>> flips;
-  const TomlValue* frames = reader.value("flips");
+  const TomlValue* frames = reader.value("flips", {"array"});
   if (frames == nullptr) return flips;
   const std::string wanted = "expected lists of a frame from 1 on and bits of 0 to 4095";
   if (!frames->is(TomlValue::Kind::kArray)) reader.fail("flips", wanted);

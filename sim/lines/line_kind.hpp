@@ -40,7 +40,7 @@ struct LineKind {
   Copied<LineConfig> (*read)(TomlReader& reader);
   // Refuses a device that does not fit the cable. Null: all do.
   void (*check)(const TomlReader& reader, const LineConfig& config, const DeviceTraits& device,
-                SourcePos where);
+                const SourcePos& where);
   // A cable without devices; add() of the kind's class takes them.
   std::unique_ptr<Line> (*make)(const LineSetup& setup);
   // Appends a device at the end away from the master. The device must be one of this kind.

@@ -3,6 +3,7 @@
 #include "sim/lines/sensor_keys.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "sim/core/number_text.hpp"
@@ -16,6 +17,15 @@ constexpr std::int64_t kMaxPolynomial = 0x1FFFF;  // degree 16
 constexpr double kMinTimeoutUs = 0.05;
 constexpr double kMaxTimeoutUs = 1e6;
 constexpr double kMaxSampleNs = 1e5;
+
+constexpr double kUsualPeriodUs = 10'000;
+constexpr double kUsualAmplitude = 1000;
+
+// A quarter of all positions, if they are few.
+double usual_amplitude(const SensorConfig& config) {
+  const double quarter = std::ldexp(0.25, static_cast<int>(config.data_bits - config.flag_bits));
+  return std::min(kUsualAmplitude, quarter);
+}
 
 bool fits(std::uint64_t value, unsigned bits) { return bits >= 64 || (value >> bits) == 0; }
 
@@ -57,13 +67,18 @@ std::string read_words(TomlReader& reader, unsigned data_bits, DataSource& sourc
 
 }  // namespace
 
-void read_source(TomlReader& reader, SensorConfig& config, std::string& file) {
+void read_source(TomlReader& reader, SensorConfig& config, std::string& file,
+                 std::string_view bits_key) {
   DataSource& source = config.source;
   const auto kind = reader.choice("source", {"ramp", "sine", "file"});
   if (const auto word = reader.word("data")) {
     if (kind) reader.fail("data", "cannot be given together with source");
     if (!fits(*word, config.data_bits)) {
-      reader.fail("data", "does not fit into " + std::to_string(config.data_bits) + " bits");
+      const unsigned needed = 64U - static_cast<unsigned>(std::countl_zero(*word));
+      reader.fail("data", "does not fit into " + std::to_string(config.data_bits) +
+                              " bits: " + hex_word(*word) + " needs " + std::string(bits_key) +
+                              " = " + std::to_string(needed) + ", the highest is " +
+                              hex_word((std::uint64_t{1} << config.data_bits) - 1));
     }
     source.constant = *word;
   } else if (!kind) {
@@ -79,15 +94,12 @@ void read_source(TomlReader& reader, SensorConfig& config, std::string& file) {
     source.kind = DataSource::Kind::kSine;
     constexpr double kMaxPosition = 9e18;
     source.offset = reader.number("offset", -kMaxPosition, kMaxPosition).value_or(0);
-    const auto amplitude = reader.number("amplitude", 0, kMaxPosition);
-    if (!amplitude) reader.missing("amplitude", "missing: source \"sine\" needs it");
-    source.amplitude = amplitude.value_or(0);
+    source.amplitude =
+        reader.number("amplitude", 0, kMaxPosition).value_or(usual_amplitude(config));
     if (const double most = kMaxPosition - std::abs(source.offset); source.amplitude > most) {
       reader.fail("amplitude", "with offset " + plain(source.offset) + " at most " + plain(most));
     }
-    const auto period = reader.number("period_us", 0.001, 1e12);
-    if (!period) reader.missing("period_us", "missing: source \"sine\" needs it");
-    source.period = from_us(period.value_or(1));
+    source.period = from_us(reader.number("period_us", 0.001, 1e12).value_or(kUsualPeriodUs));
   } else {
     source.kind = DataSource::Kind::kList;
     file = read_words(reader, config.data_bits, source);
@@ -111,7 +123,7 @@ void read_timeout_us(TomlReader& reader, std::string_view name, Time& value) {
 }
 
 void read_timeout(TomlReader& reader, SlaveTimeout& timeout) {
-  const TomlValue* value = reader.value("timeout");
+  const TomlValue* value = reader.value("timeout", {"\"adaptive\""});
   if (value != nullptr && value->is(TomlValue::Kind::kText)) {
     if (value->text != "adaptive") {
       reader.fail("timeout", "expected \"adaptive\" or a number of microseconds");

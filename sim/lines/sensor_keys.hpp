@@ -29,8 +29,10 @@ void read_timeout_us(TomlReader& reader, std::string_view name, Time& value);
 // preset. `file` becomes the path of the file of words, if there is one.
 void read_sensor(TomlReader& reader, SensorConfig& config, unsigned default_flags,
                  std::string& file);
-// Reads the source of a sensor whose lengths and flags are known, and names its keys.
-void read_source(TomlReader& reader, SensorConfig& config, std::string& file);
+// Reads the source of a sensor whose lengths and flags are known, and names its keys. `bits_key`:
+// the key of its length.
+void read_source(TomlReader& reader, SensorConfig& config, std::string& file,
+                 std::string_view bits_key = "data_bits");
 void know_source_keys(TomlReader& reader);
 // Names the keys of read_sensor() to TomlReader::know().
 void know_sensor_keys(TomlReader& reader);

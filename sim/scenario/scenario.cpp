@@ -14,6 +14,7 @@
 #include "sim/lines/protocols.hpp"
 #include "sim/scenario/scenario_channel.hpp"
 #include "sim/scenario/scenario_fault.hpp"
+#include "sim/scenario/scenario_keys.hpp"
 
 namespace mb4::sim {
 namespace {
@@ -69,13 +70,24 @@ HostConfig read_host(const TomlValue& table, TomlFile& file, const Master& maste
   return host;
 }
 
+// "; write number = 2", with the first number that is free; else empty.
+std::string free_number(const Scenario& scenario) {
+  for (unsigned number = 1; number <= scenario.master->channels; ++number) {
+    if (scenario.channel(number) == nullptr) return "; write number = " + std::to_string(number);
+  }
+  return "";
+}
+
 void read_channels(const std::vector<TomlValue>& channels, TomlFile& file, Scenario& scenario) {
+  unsigned place = 0;
   for (const TomlValue& table : channels) {
     const Master& master = *scenario.master;
-    ChannelConfig channel = read_channel(table, file, master);
+    ChannelConfig channel = read_channel(table, file, master, ++place);
     const TomlReader reader(table, file);
-    if (scenario.channel(channel.number) != nullptr) {
-      reader.fail("number", "channel " + std::to_string(channel.number) + " is given twice");
+    if (const ChannelConfig* first = scenario.channel(channel.number)) {
+      reader.fail("number",
+                  "channel " + std::to_string(channel.number) + " is given twice, first in line " +
+                      std::to_string(first->source.of("number").line) + free_number(scenario));
     }
     scenario.channels.push_back(std::move(channel));
     unsigned last = 1;
@@ -123,11 +135,17 @@ const SlaveConfig* Scenario::slave(unsigned number) const {
   return found != nullptr && index < found->slaves.size() ? &found->slaves[index] : nullptr;
 }
 
-Scenario parse_scenario(std::string_view text, const std::string& name) {
+namespace {
+
+// `file` may list what is asked for.
+Scenario read_scenario(const TomlValue& root, TomlFile& file) {
   Scenario scenario;
-  scenario.name = name;
-  const TomlValue root = parse_toml(text, name);
-  TomlFile file{name, std::nullopt};
+  scenario.name = file.name;
+  if (file.asked == nullptr) {
+    file.advice = [&scenario](const TomlValue& table, std::string_view key) {
+      return place_of_key(*scenario.master, table, key);
+    };
+  }
   TomlReader reader(root, file);
   const auto* master = reader.table("master");
   const auto* chip = reader.table("chip");
@@ -140,7 +158,8 @@ Scenario parse_scenario(std::string_view text, const std::string& name) {
   scenario.chip.quirks = scenario.master->quirks;
   scenario.chip.f_clk_hz = scenario.master->clk_hz;
   if (chip != nullptr) scenario.chip = read_chip(*chip, file, *scenario.master);
-  const TomlValue none;
+  TomlValue none;
+  none.where.table = "[host]";
   scenario.host = read_host(host != nullptr ? *host : none, file, *scenario.master, scenario.chip);
   if (sim != nullptr) {
     TomlReader sim_reader(*sim, file);
@@ -155,7 +174,27 @@ Scenario parse_scenario(std::string_view text, const std::string& name) {
   }
   TomlReader::throw_missing(file);
   scenario.source = reader.source();
+  file.advice = nullptr;  // it looks into `scenario`
   return scenario;
+}
+
+}  // namespace
+
+std::vector<AskedKey> keys_asked_for(std::string_view text) {
+  std::vector<AskedKey> asked;
+  TomlFile file{.name = "", .missing = std::nullopt, .asked = &asked};
+  try {
+    (void)read_scenario(parse_toml(text, ""), file);
+  } catch (const ScenarioError&) {
+    // What comes behind the mistake is not asked for.
+  }
+  return asked;
+}
+
+Scenario parse_scenario(std::string_view text, const std::string& name) {
+  const TomlValue root = parse_toml(text, name);
+  TomlFile file{.name = name, .missing = std::nullopt};
+  return read_scenario(root, file);
 }
 
 Scenario load_scenario(const std::string& path) {

@@ -13,7 +13,7 @@ namespace {
 
 // Checks whether the newest slave of a channel fits the others.
 void check_slave(const TomlReader& reader, const ChannelConfig& channel, const LineKind& line,
-                 SourcePos where) {
+                 const SourcePos& where) {
   const DeviceTraits newest = channel.slaves.back().traits();
   if (channel.slaves.size() > 1) {
     const DeviceTraits first = channel.slaves.front().traits();
@@ -40,12 +40,15 @@ void set_ids(ChannelConfig& channel) {
 
 }  // namespace
 
-ChannelConfig read_channel(const TomlValue& table, TomlFile& file, const Master& master) {
+ChannelConfig read_channel(const TomlValue& table, TomlFile& file, const Master& master,
+                           unsigned place) {
   TomlReader reader(table, file);
   ChannelConfig channel;
   const auto number = reader.integer("number", 1, master.channels);
-  if (!number) reader.missing("number");
-  channel.number = static_cast<unsigned>(number.value_or(1));
+  if (!number && place > master.channels) {
+    reader.fail("number", "the master has no channel " + std::to_string(place));
+  }
+  channel.number = number ? static_cast<unsigned>(*number) : place;
   channel.cable = master.line->read(reader);
   if (const auto* slaves = reader.tables("slave")) {
     for (const auto& node : *slaves) {
@@ -55,7 +58,7 @@ ChannelConfig read_channel(const TomlValue& table, TomlFile& file, const Master&
                        "more than " + std::to_string(most) + (most == 1 ? " slave" : " slaves") +
                            " on a channel");
       }
-      channel.slaves.push_back(read_slave(node, file, *master.line));
+      channel.slaves.push_back(read_slave(node, file, master));
       check_slave(reader, channel, *master.line, node.where);
     }
   }

@@ -11,8 +11,10 @@
 
 namespace mb4::sim {
 
-// Reads one channel of this master. Throws ScenarioError.
-ChannelConfig read_channel(const TomlValue& table, TomlFile& file, const Master& master);
+// Reads one channel of this master. `place`: among the channels of the file, from 1 on; it is the
+// number of a channel without the key. Throws ScenarioError.
+ChannelConfig read_channel(const TomlValue& table, TomlFile& file, const Master& master,
+                           unsigned place);
 
 }  // namespace mb4::sim
 

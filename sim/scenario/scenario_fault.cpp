@@ -45,20 +45,47 @@ void read_line(TomlReader& reader, const Scenario& scenario, FaultConfig& fault)
   fault.channel = number ? static_cast<unsigned>(*number) : scenario.channels.front().number;
   const ChannelConfig* channel = scenario.channel(fault.channel);
   if (channel == nullptr) {
-    reader.fail("channel", "the scenario has no channel " + std::to_string(fault.channel));
+    const std::string there = std::to_string(
+        scenario.channels.empty() ? fault.channel : scenario.channels.front().number);
+    const std::string asked = std::to_string(fault.channel);
+    reader.fail("channel", "the scenario has no channel " + asked + "; write channel = " + there +
+                               ", or [[channel]] with number = " + asked);
   }
   fault.frame_bits = frame_bits(*channel);
   fault.answer_bits = channel->protocol().answer_bits;
 }
 
+// Numbers of the slaves, in the order of the file.
+std::vector<unsigned> slaves_of(const Scenario& scenario) {
+  std::vector<unsigned> numbers;
+  for (const ChannelConfig& channel : scenario.channels) {
+    const unsigned first = scenario.master->first_slave(channel.number);
+    for (unsigned i = 0; i < channel.slaves.size(); ++i) numbers.push_back(first + i);
+  }
+  return numbers;
+}
+
+// "; it has 1, 2, 5": those that there are. Users also count the slaves of all channels in a row.
+std::string others(const std::vector<unsigned>& there, const FaultConfig& fault) {
+  std::string text;
+  for (const unsigned each : there)
+    text += (text.empty() ? "; it has " : ", ") + std::to_string(each);
+  if (fault.slave == 0 || fault.slave > there.size()) return text;
+  const std::string place = std::to_string(fault.slave);
+  return text + "; the one in place " + place +
+         " of the file is slave = " + std::to_string(there[fault.slave - 1]);
+}
+
 void read_slave_fault(TomlReader& reader, const Scenario& scenario, FaultConfig& fault) {
+  const std::vector<unsigned> there = slaves_of(scenario);
   const auto number = reader.integer("slave", 1, scenario.master->slaves);
-  if (!number) return reader.missing("slave");
-  fault.slave = static_cast<unsigned>(*number);
+  if (!number && there.size() != 1) return reader.missing("slave");
+  fault.slave = number ? static_cast<unsigned>(*number) : there.front();
   fault.channel = scenario.channel_of(fault.slave);
   const SlaveConfig* slave = scenario.slave(fault.slave);
   if (slave == nullptr) {
-    reader.fail("slave", "the scenario has no slave " + std::to_string(fault.slave));
+    reader.fail("slave",
+                "the scenario has no slave " + std::to_string(fault.slave) + others(there, fault));
   }
   const SlaveFault* of_slave = fault.kind->of_slave;
   if (of_slave == nullptr) return;
@@ -89,7 +116,7 @@ void read_place(TomlReader& reader, const Scenario& scenario, FaultConfig& fault
 
 // Reads a time or a list of times.
 void read_at(TomlReader& reader, FaultConfig& fault) {
-  const TomlValue* value = reader.value("at_us");
+  const TomlValue* value = reader.value("at_us", {"number", "array"});
   const auto add = [&](const TomlValue& item) {
     if (!item.is_number() || !(item.number >= 0 && item.number <= kMaxTimeUs)) {
       reader.fail_at(item.where, "at_us",

@@ -10,8 +10,8 @@
 
 namespace mb4::sim {
 
-// Reads one slave, of a channel with this kind of line. Throws ScenarioError.
-SlaveConfig read_slave(const TomlValue& table, TomlFile& file, const LineKind& line);
+// Reads one slave of a channel of this master. Throws ScenarioError.
+SlaveConfig read_slave(const TomlValue& table, TomlFile& file, const Master& master);
 
 }  // namespace mb4::sim
 

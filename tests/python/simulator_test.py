@@ -285,3 +285,19 @@ def test_simulators_in_threads_do_not_disturb_each_other():
     for worker in workers:
         worker.join()
     assert results == [{word} for word in words]
+
+
+def test_codes_have_the_names_of_the_register_manual():
+    with openmb4.Simulator(TEXT) as chip:
+        chip.driver.configure()
+        assert chip.regs.CFGCH1.read_name() == "BiSS_C"
+        assert chip.regs.CFGCH1.codes == {"BiSS_B": 0, "BiSS_C": 1, "SSI": 2, "UNUSED": 3}
+        chip.regs.CFGCH2.modify("SSI")
+        assert (chip.regs.CFGCH2.read(), chip.regs.CFGCH2.read_name()) == (2, "SSI")
+        chip.regs.FREQAGS.modify("AGSINFINITE")
+        assert chip.regs.FREQAGS.read() == 0x7D
+        assert chip.regs.FREQS.read_name() == str(chip.regs.FREQS.read())
+        with pytest.raises(openmb4.Error, match="CFGCH2: no code has the name 'SPI'; they are BiSS_B, BiSS_C"):
+            chip.regs.CFGCH2.modify("SPI")
+        with pytest.raises(openmb4.Error, match="FREQS: .*its codes have no names"):
+            chip.regs.FREQS.modify("fast")

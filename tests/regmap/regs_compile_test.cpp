@@ -3,6 +3,9 @@
 //
 // What the field types promise, beyond the values of the map. All of it is decided at compile time.
 
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
 #include <type_traits>
 
 #include "mb4_regs.hpp"
@@ -78,6 +81,22 @@ constexpr int dual_use() {
   return count;
 }
 static_assert(dual_use() == 1 + 8 + 8 + 1);  // RDATA1, GRAYSx, SCRCLENx, SLAVEID
+
+// Codes have names, which are those of the datasheet where it has some.
+constexpr std::string_view code_name(std::string_view name, std::uint32_t code) {
+  for (const FieldInfo& field : kFields) {
+    if (field.name != name) continue;
+    for (std::size_t i = 0; i < field.codes; ++i) {
+      const CodeInfo& info = kCodes[field.first_code + i];
+      if (code >= info.first && code <= info.last) return info.name;
+    }
+  }
+  return "no such code";
+}
+static_assert(code_name("CFGCH1", static_cast<std::uint32_t>(Protocol::kBissC)) == "BiSS_C");
+static_assert(code_name("FREQAGS", 0x7C) == "AGSMIN" &&
+              code_name("FREQAGS", 0x7F) == "AGSINFINITE");
+static_assert(code_name("FREQS", 4).empty() && code_name("SCDATA1(7:0)", 4) == "no such code");
 
 // A map with registers of 32 bits, addresses of 12 bits and all kinds of access.
 namespace smp = test::smp;

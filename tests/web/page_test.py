@@ -378,6 +378,12 @@ def test_registers_by_field(page):
     page.enter("field-FREQS", "four")
     assert "this is no number" in page.said()
     assert page["field-FREQS"].get_attribute("value") == "4"
+    # Codes by their names.
+    words = "return document.getElementById('field-CFGCH2').closest('label').querySelector('.word').textContent"
+    assert page.run(words) == "UNUSED"
+    page.enter("field-CFGCH2", "SSI")
+    assert (page["field-CFGCH2"].get_attribute("value"), page.run(words)) == ("2", "SSI")
+    page.enter("field-CFGCH2", "3")
     for name in ("AGS", "INSTR", "SVALID1", "BREAK"):
         page.enter(f"field-{name}", "1")
         assert "does harm; write the whole register" in page.said(), name

@@ -11,8 +11,8 @@
 #include <system_error>
 #include <vector>
 
+#include "sim/core/suggestion.hpp"
 #include "sim/core/version.hpp"
-#include "suggestion.hpp"
 
 namespace mb4::tool {
 
@@ -57,7 +57,7 @@ CLI::Validator file_name() {
 }
 
 void add_scenario(CLI::App& command, std::string& target) {
-  command.add_option("scenario", target, "Scenario file (TOML)")
+  command.add_option("scenario", target, "Scenario file (TOML), or a name of `mb4sim presets`")
       ->required()
       ->type_name("SCENARIO")
       ->check(file_name());
@@ -125,9 +125,9 @@ std::string mistake(const CLI::App& app, const CLI::ParseError& error) {
     const std::string name = word.substr(0, word.find('='));
     if (word.starts_with('-')) {
       const bool early = std::find(options.begin(), options.end(), name) != options.end();
-      unknown += early ? ", which goes behind the command" : suggestion(name, options);
+      unknown += early ? ", which goes behind the command" : sim::suggestion(name, options);
     } else if (parsed.empty()) {
-      unknown += suggestion(word, command_names(app));
+      unknown += sim::suggestion(word, command_names(app));
       break;  // the next words belong to the intended command
     }
   }

@@ -29,9 +29,9 @@ std::vector<std::string> command_names(const CLI::App& app);
 
 // --- for those who add commands ------------------------------------------------------------
 
-// Commands that run a scenario: run, spi, regs, scan, sweep, regress.
+// Commands that read a scenario: run, watch, check, spi, regs, scan, sweep, regress.
 void add_scenario_commands(CLI::App& app, Action& action);
-// Commands without a scenario: presets, bench, completion, man, help.
+// Commands without a scenario: presets, schema, bench, completion, man, help.
 void add_other_commands(CLI::App& app, Action& action);
 // The simulated chip in place of a real chip, and pictures of its lines: spidev, bridge, plot.
 void add_dropin_commands(CLI::App& app, Action& action);

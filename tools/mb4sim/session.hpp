@@ -86,6 +86,13 @@ struct RunSummary {
 
 // The registers as the host reads them.
 struct RegisterMap {
+  // What codes of a field mean. A meaning may be a formula of the clock: f_CLK / 20 / (code + 1).
+  struct Code {
+    std::uint32_t first = 0;
+    std::uint32_t last = 0;
+    std::string_view name{};  // empty: none
+    std::string_view meaning{};
+  };
   struct Field {
     std::string name;
     std::string alternate;  // other meaning of the same bits; empty: none
@@ -94,13 +101,23 @@ struct RegisterMap {
     unsigned width = 1;
     std::uint32_t word = 0;  // the whole register
     std::string description;
-    bool data = false;  // part of a longer value, which `data_text` shows
+    bool data = false;  // part of a longer value, which `data_rows` show
+    std::uint32_t reset = 0;
+    std::vector<Code> codes{};  // empty: any value
 
     std::uint32_t value() const;
   };
   unsigned bits = 8;                 // of a register: 8 or 32
+  std::uint64_t clk_hz = 0;          // f_CLK; 0: unknown
   std::vector<std::uint32_t> words;  // all registers, the lowest address first
-  std::string data_text;             // what is shown before the fields
+  // Longer values, which are shown before the fields.
+  struct DataRow {
+    unsigned address = 0;
+    std::string name;
+    std::string bytes;  // "00 1F"
+    bool at_reset = false;
+  };
+  std::vector<DataRow> data_rows;
   std::vector<Field> fields;
 };
 

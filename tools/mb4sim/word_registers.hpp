@@ -9,16 +9,18 @@
 
 #include <cstdint>
 
+#include "register_table.hpp"
 #include "report/exit_status.hpp"
 #include "session.hpp"
 #include "word_port.hpp"
 
 namespace mb4::tool {
 
-// Those up to address `last`. `fields`: kFields of the generated table. Throws UseError if the
-// master does not answer.
-template <typename Fields>
-RegisterMap read_registers(WordPort& port, unsigned last, const Fields& fields) {
+// Those up to address `last`. `fields`, `codes`: kFields and kCodes of the generated table. Throws
+// UseError if the master does not answer.
+template <typename Fields, typename Codes>
+RegisterMap read_registers(WordPort& port, unsigned last, const Fields& fields,
+                           const Codes& codes) {
   RegisterMap map;
   map.bits = 32;
   for (unsigned address = 0; address <= last; address += sizeof(std::uint32_t)) {
@@ -30,9 +32,7 @@ RegisterMap read_registers(WordPort& port, unsigned last, const Fields& fields) 
     map.words.push_back(value);
   }
   for (const auto& field : fields) {
-    map.fields.push_back({field.name, field.alternate == nullptr ? "" : field.alternate,
-                          field.address, field.lsb, field.width,
-                          map.words[field.address / sizeof(std::uint32_t)], field.description});
+    map.fields.push_back(field_of(field, codes, map.words[field.address / sizeof(std::uint32_t)]));
   }
   return map;
 }

@@ -88,7 +88,7 @@ void read_biss_b(TomlReader& reader, DeviceConfig& device, std::string& file) {
   auto& config = static_cast<BissBSlaveConfig&>(device);
   read_sensor(reader, config, kFlagsOfEncoders, file);
   read_timeout(reader, config.timeout);
-  const TomlValue* value = reader.value("register_timeout");
+  const TomlValue* value = reader.value("register_timeout", {"\"adaptive\""});
   if (value != nullptr && value->is(TomlValue::Kind::kText)) {
     if (value->text != "adaptive") {
       reader.fail("register_timeout", "expected \"adaptive\" or a number of microseconds");

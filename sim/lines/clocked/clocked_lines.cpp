@@ -42,7 +42,7 @@ Copied<LineConfig> read(TomlReader& reader) {
 }
 
 void check(const TomlReader& reader, const LineConfig& config, const DeviceTraits& device,
-           SourcePos where) {
+           const SourcePos& where) {
   if (device.actuator && !clocked(config).mo) {
     reader.fail_at(where, "actuator", "an actuator needs mo = true on its channel");
   }

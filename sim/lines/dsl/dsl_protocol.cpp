@@ -117,7 +117,7 @@ void read(TomlReader& reader, DeviceConfig& device, std::string& file) {
   config.flag_bits = 0;
   config.flags = 0;
   read_number(reader, "position_bits", kLeastPosition, kMostPosition, config.data_bits);
-  read_source(reader, config, file);
+  read_source(reader, config, file, "position_bits");
   read_number(reader, "acceleration_bits", 8, 11, config.acceleration_bits);
   check_speed(reader, config);
   read_number(reader, "index", 0, 15, config.index);
@@ -141,7 +141,7 @@ void read(TomlReader& reader, DeviceConfig& device, std::string& file) {
     if (*disparity == 0) reader.fail("start_disparity", "expected -1 or 1");
     config.positive = *disparity > 0;
   }
-  if (const TomlValue* value = reader.value("direction_bit")) {
+  if (const TomlValue* value = reader.value("direction_bit", {"\"opposite\"", "0", "1"})) {
     const bool text = value->is(TomlValue::Kind::kText);
     if (text ? value->text != "opposite" : !value->within(0, 1)) {
       reader.fail("direction_bit", "expected \"opposite\", 0 or 1");

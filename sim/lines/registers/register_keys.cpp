@@ -53,7 +53,7 @@ bool mark_text(std::string_view text, RegisterFile::Marks& marks) {
 }
 
 void read_marks(TomlReader& reader, std::string_view key, RegisterFile::Marks& marks) {
-  const TomlValue* list = reader.value(key);
+  const TomlValue* list = reader.value(key, {"array"});
   if (list == nullptr) return;
   if (!list->is(TomlValue::Kind::kArray)) reader.fail(key, "expected a list of register addresses");
   marks.reset();
@@ -86,7 +86,7 @@ bool read_present(TomlReader& reader, bool& present, std::initializer_list<std::
 
 void read_busy(TomlReader& reader, std::string_view frames_key, std::string_view us_key,
                BusyTime& busy) {
-  const TomlValue* value = reader.value(frames_key);
+  const TomlValue* value = reader.value(frames_key, {"\"forever\""});
   if (value != nullptr && value->is(TomlValue::Kind::kText)) {
     if (value->text != "forever") {
       reader.fail(frames_key, "expected \"forever\" or a number of frames");

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "sim/core/toml_advice.hpp"
 #include "sim/core/toml_reader.hpp"
 #include "sim/hosts/host_keys.hpp"
 #include "sim/lines/clocked/clocked_lines.hpp"
@@ -73,6 +74,19 @@ void read_quirks(TomlReader& reader, ChipConfig& chip) {
   }
 }
 
+// "; the range is 62500 to 10000000" where `hz` lies outside. Megahertz are a usual mistake.
+std::string outside(std::uint64_t system_hz, const NearestMa& nearest, std::uint64_t hz) {
+  if (nearest.below != 0 && nearest.above != 0) return "";
+  const std::uint64_t lowest = nearest_ma(system_hz, 1).above;
+  const std::uint64_t highest = nearest_ma(system_hz, kMaxClkHz).below;
+  constexpr std::uint64_t kMega = 1'000'000;
+  std::string text = "; the range is " + std::to_string(lowest) + " to " + std::to_string(highest);
+  if (hz * kMega <= highest && freqs_code(system_hz, hz * kMega)) {
+    text += "; write ma_hz = " + toml_number(static_cast<double>(hz * kMega)) + " for megahertz";
+  }
+  return text;
+}
+
 void read_host(TomlReader& reader, const ChipConfig& chip, HostConfig& host) {
   read_spi_keys(reader, host);
   read_parallel_keys(reader, host);
@@ -91,7 +105,8 @@ void read_host(TomlReader& reader, const ChipConfig& chip, HostConfig& host) {
         choice += (choice.empty() ? "" : " and ") + std::to_string(nearest.above);
       }
       reader.fail("ma_hz", "the chip cannot make " + std::to_string(host.ma_hz) + " Hz from " +
-                               std::to_string(chip.system_hz()) + " Hz; nearest: " + choice);
+                               std::to_string(chip.system_hz()) + " Hz; nearest: " + choice +
+                               outside(chip.system_hz(), nearest, host.ma_hz));
     }
   }
 }

@@ -652,7 +652,7 @@ TEST(ChipFeaturesKey, UnknownOrAbsentPreset_IsOneClearError) {
       EXPECT_EQ(text, "test.toml:2:12: key 'features': this build has no \"" +
                           std::string(preset.name) +
                           "\"; `cmake --preset default -DMB4_PRESETS='single;" +
-                          std::string(preset.name) + "'` and a new build bring it");
+                          std::string(preset.name) + "'` and a new build bring it (in [chip])");
     }
   }
 }

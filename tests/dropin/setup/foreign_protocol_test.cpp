@@ -47,7 +47,7 @@ TEST(ChipSetup, ProtocolThatTheChipDoesNotSpeak_IsRefused) {
   } catch (const ScenarioError& error) {
     EXPECT_STREQ(error.what(),
                  "foreign.toml:4:12: key 'protocol': the chip speaks BiSS C, BiSS B and SSI, not "
-                 "\"foreign\"");
+                 "\"foreign\" (in [[channel.slave]])");
   }
 }
 

@@ -167,11 +167,14 @@ TEST_F(CApiFirmware, InjectedLineEvents_CountFromNow) {
 TEST_F(CApiFirmware, WrongText_NamesLineAndKeyAndInjectsNothing) {
   const std::string good = "[[fault]]\nkind = \"silent\"\nslave = 1\nat_us = 0.0\n";
   EXPECT_EQ(refusal((good + "[[fault]]\nkind = \"silent\"\nslave = 2\nat_us = 0.0\n").c_str()),
-            "inject:7:9: key 'slave': the scenario has no slave 2");
+            "inject:7:9: key 'slave': the scenario has no slave 2; it has 1 (in [[fault]])");
   EXPECT_EQ(refusal("[[channel]]\nnumber = 1\ndelay_ns = 5\n"),
-            "inject:3:1: key 'delay_ns': unknown key");
-  EXPECT_EQ(refusal("[[channel]]\nnumber = 3\n"), "inject:2:10: key 'number': 3 is outside 1 to 2");
-  EXPECT_EQ(refusal("[chip]\n"), "inject:1:2: key 'chip': unknown key");
+            "inject:3:1: key 'delay_ns': unknown key, known here: [[channel.event]], number (in "
+            "[[channel]])");
+  EXPECT_EQ(refusal("[[channel]]\nnumber = 3\n"),
+            "inject:2:10: key 'number': 3 is outside 1 to 2 (in [[channel]])");
+  EXPECT_EQ(refusal("[chip]\n"),
+            "inject:1:2: key 'chip': unknown key, known here: [[channel]], [[fault]]");
   EXPECT_NE(refusal("fault").find("inject:1:"), std::string::npos);
   EXPECT_EQ(mb4sim_inject(sim, nullptr, nullptr, 0), MB4SIM_ERROR_UNKNOWN);
   EXPECT_EQ(mb4sim_inject(nullptr, good.c_str(), nullptr, 0), MB4SIM_ERROR_UNKNOWN);

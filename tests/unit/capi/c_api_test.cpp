@@ -152,7 +152,9 @@ TEST_F(CApi, SetData_IsReadByTheChip) {
 TEST(CApiOpen, BadText_ReturnsNullAndOneLine) {
   char error[200];
   EXPECT_EQ(mb4sim_open("[chip]\nclock = 1\n", error, sizeof error), nullptr);
-  EXPECT_STREQ(error, "scenario:2:1: key 'clock': unknown key");
+  EXPECT_STREQ(error,
+               "scenario:2:1: key 'clock': unknown key, known here: f_clk_hz, f_osc_hz, features, "
+               "[chip.quirks] (in [chip])");
 }
 
 TEST(CApiOpen, ShortBuffer_IsCutAndTerminated) {
@@ -217,7 +219,9 @@ TEST(CApiOpen, LongestAdvance_EndsAtTheEndOfTime) {
 TEST(CApiOpen, ControlCharacters_AreEscaped) {
   char error[200];
   EXPECT_EQ(mb4sim_open("\"a\\n\" = 1\n", error, sizeof error), nullptr);
-  EXPECT_STREQ(error, "scenario:1:1: key 'a\\n': unknown key");
+  EXPECT_STREQ(error,
+               "scenario:1:1: key 'a\\n': unknown key, known here: [[channel]], [chip], [[fault]], "
+               "[host], [master], [sim]");
 }
 
 TEST(CApiOpen, Version_HasThreeNumbers) {

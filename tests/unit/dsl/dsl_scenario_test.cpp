@@ -165,7 +165,7 @@ TEST(DslScenario, WrongKeys_NameFileLineAndKey) {
 
 TEST(DslScenario, ClockOfNoOrOtherFrequency_NamesTheLimits) {
   EXPECT_EQ(error_of(std::string(kMaster) + "[chip]\nf_clk_hz = 0\n"),
-            "motor.toml:4:12: key 'f_clk_hz': 0 is outside 74925000 to 75075000");
+            "motor.toml:4:12: key 'f_clk_hz': 0 is outside 74925000 to 75075000 (in [chip])");
   EXPECT_EQ(error_of(std::string(kMaster) + "[chip]\nf_clk_hz = 74_925_000\n"), "");
   EXPECT_EQ(error_of(std::string(kMaster) + "[chip]\nf_clk_hz = 75_075_000\n"), "");
 }

@@ -82,7 +82,7 @@ class Clb(MasterTest):
         for hz in (20_000, 60_000_000):
             result = run("run", self.path(f"[host]\nma_hz = {hz}\n" + encoder()))
             self.assertEqual((result.returncode, result.stdout), (2, ""))
-            self.assertRegex(result.stderr, rf"key 'ma_hz': the master cannot make {hz} Hz .* 4 to 2048 clocks\n$")
+            self.assertRegex(result.stderr, rf"key 'ma_hz': the master cannot make {hz} Hz .* 4 to 2048 clocks \(in \[host\]\)\n$")
 
     def test_bad_frames_say_what_was_wrong(self):
         cases = (('kind = "bit-flip"\nchannel = 1\nbits = [5]\n', "CRC error"),

@@ -47,7 +47,7 @@ class DslModel(MasterTest):
             result = run(command[0], scenario, *command[1:])
             self.assertEqual(result.returncode, 2, command)
             self.assertRegex(result.stderr, r"\Amb4sim: .*motor\.toml:4:12: key 'f_clk_hz': 0 is outside "
-                                            r"74925000 to 75075000\n\Z")
+                                            r"74925000 to 75075000 \(in \[chip\]\)\n\Z")
 
     def test_stopped_clock_has_its_last_frame_as_picture(self):
         stop = '[[fault]]\nkind = "clock-stop"\nat_us = 1500\n'
@@ -123,7 +123,7 @@ class DslModel(MasterTest):
         result = run("run", self.path(motor(slave=slave)))
         self.assertEqual(result.returncode, 2)
         self.assertRegex(result.stderr, r"\Amb4sim: .*key 'step': too fast for a position of 12 bits: its speed must "
-                                        r"stay below 256 steps a frame\n\Z")
+                                        r"stay below 256 steps a frame \(in \[\[channel\.slave\]\]\)\n\Z")
 
     def test_ramp_goes_on_by_one_step_a_frame(self):
         scenario = self.path(motor("cable_m = 60\n", 'source = "ramp"\nstart = 7\nstep = -3\n'

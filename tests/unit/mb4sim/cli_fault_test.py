@@ -245,7 +245,7 @@ class Faults(CliTest):
                  r":13:1: key 'slave': unknown key"),
                 ("kind = \"glitch\"\nwidth_ns = 5\nat_us = 1\nchannel = 2",
                  r":13:11: key 'channel': the scenario has no channel 2"),
-                ("kind = \"silent\"\nat_us = 1", r":9:1: key 'slave': missing"),
+                ("kind = \"silent\"", r":9:1: key 'at_us': one of"),
                 ("kind = \"silent\"\nslave = 2\nat_us = 1",
                  r":11:9: key 'slave': the scenario has no slave 2"),
                 ("kind = \"silent\"\nslave = 1\nper_s = 1", r":9:1: key 'for_us': missing"),

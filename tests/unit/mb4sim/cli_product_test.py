@@ -18,8 +18,8 @@ from pathlib import Path
 from cli import EXAMPLES, MB4SIM, RESOLUTE, CliTest, run, slave
 
 BUS = os.path.join(EXAMPLES, "control-bus.toml")
-COMMANDS = ("run", "spi", "regs", "scan", "sweep", "regress", "presets", "bench", "completion",
-            "man", "spidev", "bridge", "plot", "help")
+COMMANDS = ("run", "watch", "check", "spi", "regs", "scan", "sweep", "regress", "presets", "schema", "bench",
+            "completion", "man", "spidev", "bridge", "plot", "help")
 FLIP = "[[fault]]\nkind = \"bit-flip\"\nbits = [4]\nat_us = 1000\n"
 
 

@@ -454,14 +454,38 @@ class Cli(CliTest):
     # --- regs --------------------------------------------------------------------------------
 
     def test_regs_shows_the_configured_chip(self):
-        result = run("regs", RESOLUTE, "--frames", "1")
+        result = run("regs", RESOLUTE, "--frames", "1", "--all")
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertRegex(result.stdout, r"0x00 +SCDATA1 +EF CD AB 02")
-        self.assertRegex(result.stdout, r"0xEA +0x20 +REVISION +7:0 +0x20")
-        self.assertRegex(result.stdout, r"0xEB +0x84 +VERSION +7:0 +0x84")
-        self.assertRegex(result.stdout, r"0xC0 +0x5B +SCDLEN1 +5:0 +0x1B")
-        self.assertRegex(result.stdout, r"CFGCH1 +1:0 +0x01")
-        self.assertRegex(result.stdout, r"nSCDERR +4 +0x01")
+        for row in (r"0xEA +0x20 +7:0 +REVISION = Y ", r"0xEB +0x84 +7:0 +VERSION = IC_MB4 ",
+                    r"0xC0 +0x5B +5:0 +SCDLEN1 = 0x1B \(28 bits\) ", r"0xED +0x0D +1:0 +CFGCH1 = BiSS_C ",
+                    r"0xF0 +\S+ +4 +nSCDERR = GOOD ", r"0xE8 +0x7C +7:0 +FREQAGS = 0x7C \(AGSMIN\) "):
+            self.assertRegex(result.stdout, row)
+
+    def test_regs_leaves_out_what_is_as_after_reset(self):
+        fields = json.loads(run("regs", RESOLUTE, "--json").stdout)["fields"]
+        changed = {field["name"] for field in fields
+                   if field["value"] != field["reset"] and field["address"] >= 0xC0}
+        lines = run("regs", RESOLUTE).stdout.splitlines()
+        shown = {match[1] for line in lines if (match := re.search(r"^0x.*? (\w+)(?:/\S+)? = ", line))}
+        self.assertEqual(shown, changed)
+        self.assertIn("CFGCH1", shown)
+        self.assertFalse(any("SCDATA2" in line for line in lines))
+        self.assertIn("SCDATA2", run("regs", RESOLUTE, "--all").stdout)
+
+    def test_regs_of_a_name(self):
+        def rows(*arguments):
+            return re.findall(r"(?m)^0x.*? (\w+)(?:/\S+)? = (.*?)  ", run("regs", *arguments).stdout)
+
+        # Frequencies follow from CLK: Table 35, 36 and 37 with 20 MHz, then with 16 MHz.
+        self.assertEqual(rows(RESOLUTE, "freq"), [("FREQR", "0x05 (156.25 kHz)"), ("FREQS", "0x00 (10 MHz)"),
+                                                  ("FREQAGS", "0x7C (AGSMIN)")])
+        slow = self.path("slow.toml", "[chip]\nf_clk_hz = 16_000_000\n[host]\nma_hz = 100_000\n" +
+                         slave("data_bits = 28"))
+        # FREQS 0x17: f_CLK / 20 / (23 - 15) = 100 kHz; FREQR 5: f_MA / 64.
+        self.assertEqual(rows(slow, "FREQS", "FREQR"), [("FREQR", "0x05 (1.5625 kHz)"), ("FREQS", "0x17 (100 kHz)")])
+        self.assert_one_line(run("regs", RESOLUTE, "CFGHC1"), 2,
+                             r"^mb4sim: no field has 'CFGHC1' in its name, did you mean 'CFGCH1'\?$")
 
     def test_regs_after_reset(self):
         result = run("regs", RESOLUTE, "--reset", "--json")

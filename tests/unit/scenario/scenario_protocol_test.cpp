@@ -13,6 +13,7 @@
 #include "sim/lines/presets.hpp"
 #include "sim/lines/ssi/ssi_slave.hpp"
 #include "sim/scenario/scenario.hpp"
+#include "tests/support/scenario_place.hpp"
 
 namespace mb4test {
 
@@ -171,7 +172,7 @@ TEST_P(ScenarioProtocolErrors, BadInput_GivesOneLineWithPlaceAndKey) {
     parse_scenario(GetParam().text, "s.toml");
     FAIL() << "accepted";
   } catch (const ScenarioError& error) {
-    EXPECT_STREQ(error.what(), GetParam().message);
+    EXPECT_EQ(error.what(), with_section(GetParam().text, GetParam().message));
   }
 }
 
@@ -186,28 +187,33 @@ INSTANTIATE_TEST_SUITE_P(
                 "s.toml:6:1: key 'protocol': all slaves of a channel must have the same protocol"},
         BadKeys{"SsiTimeout", channel("", slave("ssi", "data_bits = 8\ntimeout = \"adaptive\"")),
                 "s.toml:6:11: key 'timeout': expected a number, found a string"},
-        BadKeys{"SsiBusy", channel("", slave("ssi", "data_bits = 8\nbusy_periods = 1")),
-                "s.toml:6:1: key 'busy_periods': unknown key"},
+        BadKeys{
+            "SsiBusy", channel("", slave("ssi", "data_bits = 8\nbusy_periods = 1")),
+            "s.toml:6:1: key 'busy_periods': unknown key; it goes with protocol = \"biss-b\" or "
+            "\"biss-c\""},
         BadKeys{"SsiIds", channel("", slave("ssi", "data_bits = 8\nids = 1")),
                 "s.toml:6:7: key 'ids': needs control = true"},
         BadKeys{"Response", channel("", slave("ssi", "data_bits = 8\nresponse_ns = -1")),
                 "s.toml:6:15: key 'response_ns': -1 is outside 0 to 100000"},
         BadKeys{"GrayOfBissC", channel("", slave("biss-c", "data_bits = 8\ngray = true")),
-                "s.toml:6:1: key 'gray': unknown key"},
+                "s.toml:6:1: key 'gray': unknown key; it goes with protocol = \"ssi\""},
         BadKeys{"Acknowledge",
                 channel("", slave("biss-c", "data_bits = 8\nacknowledge = \"late\"")),
                 "s.toml:6:15: key 'acknowledge': unknown value 'late', expected one of: latched, "
                 "passed-on"},
         BadKeys{"SsiAcknowledge",
                 channel("", slave("ssi", "data_bits = 8\nacknowledge = \"latched\"")),
-                "s.toml:6:1: key 'acknowledge': unknown key"},
+                "s.toml:6:1: key 'acknowledge': unknown key; it goes with protocol = \"biss-b\" or "
+                "\"biss-c\""},
         BadKeys{"RegisterTimeout",
                 channel("", slave("biss-b", "data_bits = 8\nregister_timeout = \"long\"")),
                 "s.toml:6:20: key 'register_timeout': expected \"adaptive\" or a number of "
                 "microseconds"},
-        BadKeys{"BusyFramesOfBissB",
-                channel("", slave("biss-b", "data_bits = 8\nread_busy_frames = 1")),
-                "s.toml:6:1: key 'read_busy_frames': unknown key"},
+        BadKeys{
+            "BusyFramesOfBissB",
+            channel("", slave("biss-b", "data_bits = 8\nread_busy_frames = 1")),
+            "s.toml:6:1: key 'read_busy_frames': unknown key; it goes with protocol = \"biss-c\" "
+            "or \"ssi\""},
         BadKeys{"BissBIds", channel("", slave("biss-b", "data_bits = 8\ncontrol = false\nids = 1")),
                 "s.toml:7:7: key 'ids': needs control = true"},
         BadKeys{"ActuatorWithoutMo", channel("", slave("biss-c", "data_bits = 8\nactuator = true")),
@@ -228,7 +234,8 @@ INSTANTIATE_TEST_SUITE_P(
                 "s.toml:8:21: key 'life_counter_bits': an actuator has none"},
         BadKeys{"LifeCounterOfBissB",
                 channel("", slave("biss-b", "data_bits = 20\nlife_counter_bits = 6")),
-                "s.toml:6:1: key 'life_counter_bits': unknown key"},
+                "s.toml:6:1: key 'life_counter_bits': unknown key; it goes with protocol = "
+                "\"biss-c\""},
         BadKeys{"SourceOfAnActuator",
                 channel("mo = true\n",
                         slave("biss-c", "data_bits = 8\nactuator = true\nsource = \"ramp\"")),

@@ -12,6 +12,8 @@
 #include <vector>
 
 #include "sim/lines/biss/biss_c_slave.hpp"
+#include "sim/lines/clocked/clocked_line.hpp"
+#include "tests/support/scenario_place.hpp"
 
 namespace mb4test {
 
@@ -222,6 +224,45 @@ TEST(Scenario, SecondChannel_TakesSlaves5To8) {
   ASSERT_NE(scenario.channel(2), nullptr);
 }
 
+// ---- What a scenario may leave out --------------------------------------------------------------
+
+TEST(Scenario, PresetWithoutProtocol_HasItsOwn) {
+  const Scenario scenario = parse_scenario(
+      "[[channel]]\n[[channel.slave]]\npreset = \"posital-ssi-25\"\n"
+      "[[channel]]\n[[channel.slave]]\npreset = \"ic-nq\"\n",
+      "s");
+  ASSERT_NE(scenario.channel(1), nullptr);
+  ASSERT_NE(scenario.channel(2), nullptr);
+  EXPECT_EQ(scenario.channel(1)->protocol().key, "ssi");
+  EXPECT_EQ(scenario.channel(1)->slaves[0].data_bits(), 25U);
+  EXPECT_EQ(scenario.channel(2)->protocol().key, "biss-b");
+}
+
+TEST(Scenario, ChannelsWithoutNumber_HaveThatOfTheirPlace) {
+  const std::string event = "[[channel]]\ndelay_ns = ";
+  const Scenario scenario = parse_scenario(event + "1\n" + event + "2\nnumber = 2\n", "s");
+  EXPECT_EQ(clocked(*scenario.channel(1)->cable).delay, from_ns(1));
+  EXPECT_EQ(clocked(*scenario.channel(2)->cable).delay, from_ns(2));
+}
+
+// 1000 counts in 10 ms, or a quarter of the positions: 2 flags of 8 bits leave 64.
+TEST(Scenario, SineAlone_IsSmallAndSlow) {
+  const auto source = [](const char* bits) {
+    const Scenario scenario =
+        parse_scenario(slave(std::string("source = \"sine\"\ndata_bits = ") + bits), "s");
+    return scenario.channels[0].slaves[0].device.as<BissCSlaveConfig>().source;
+  };
+  EXPECT_EQ(source("28").amplitude, 1000);
+  EXPECT_EQ(source("28").period, from_us(10'000));
+  EXPECT_EQ(source("28").offset, 0);
+  EXPECT_EQ(source("8").amplitude, 16);
+}
+
+TEST(Scenario, FaultOfTheOnlySlave_NeedsNoNumber) {
+  const std::string fault = "\n[[fault]]\nkind = \"silent\"\nat_us = 1\n";
+  EXPECT_EQ(parse_scenario(slave("data_bits = 8") + fault, "s").faults.at(0).slave, 1U);
+}
+
 struct BadScenario {
   const char* name;
   std::string text;
@@ -237,22 +278,23 @@ TEST_P(Scenarios, BadInput_GivesOneLineWithPlaceAndKey) {
     parse_scenario(GetParam().text, "s.toml");
     FAIL() << "accepted";
   } catch (const ScenarioError& error) {
-    EXPECT_STREQ(error.what(), GetParam().message);
+    EXPECT_EQ(error.what(), with_section(GetParam().text, GetParam().message));
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(
     Bad, Scenarios,
     testing::Values(
-        BadScenario{"UnknownTable", "[chips]\n", "s.toml:1:2: key 'chips': unknown key"},
+        BadScenario{"UnknownTable", "[chips]\n",
+                    "s.toml:1:2: key 'chips': unknown key, did you mean '[chip]'?"},
         BadScenario{
             "Master", "[master]\ntype = \"ic-mb9\"\n",
             "s.toml:2:8: key 'type': unknown value 'ic-mb9', expected one of: ic-mb4, axi, clb, "
-            "pru, dsl, dsl-model"},
+            "pru, dsl, dsl-model; did you mean \"ic-mb4\"?"},
         BadScenario{"MasterKey", "[master]\nname = \"ic-mb4\"\n",
-                    "s.toml:2:1: key 'name': unknown key"},
+                    "s.toml:2:1: key 'name': unknown key, known here: type"},
         BadScenario{"UnknownKey", "[chip]\nf_clk_hz = 20_000_000\nf_clk = 3\n",
-                    "s.toml:3:1: key 'f_clk': unknown key"},
+                    "s.toml:3:1: key 'f_clk': unknown key, did you mean 'f_clk_hz'?"},
         BadScenario{"WrongType", "[chip]\nf_clk_hz = \"fast\"\n",
                     "s.toml:2:12: key 'f_clk_hz': expected an integer, found a string"},
         BadScenario{"Negative", "[chip]\nf_clk_hz = -1\n",
@@ -264,7 +306,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadScenario{"SlowOscillator", "[chip]\nf_osc_hz = 9_999_999\n",
                     "s.toml:2:12: key 'f_osc_hz': 9999999 is outside 10000000 to 25000000"},
         BadScenario{"Quirk", "[chip.quirks]\nNO_SUCH = true\n",
-                    "s.toml:2:1: key 'NO_SUCH': unknown key"},
+                    "s.toml:2:1: key 'NO_SUCH': unknown key, known here: AGSERR_ON_HOLDBANK, "
+                    "AGSERR_ON_INSTR_WRITE, AGS_CLEARED_ON_ERROR, IDA_TEST_INVERT, REVISION"},
         BadScenario{"QuirkType", "[chip.quirks]\nIDA_TEST_INVERT = 2\n",
                     "s.toml:2:19: key 'IDA_TEST_INVERT': expected true or false, found an integer"},
         BadScenario{"Revision", "[chip.quirks]\nREVISION = 0x21\n",
@@ -281,9 +324,14 @@ INSTANTIATE_TEST_SUITE_P(
                     "nearest: 3333333 and 5000000"},
         BadScenario{"ChannelNumber", "[[channel]]\nnumber = 3\n",
                     "s.toml:2:10: key 'number': 3 is outside 1 to 2"},
-        BadScenario{"NoNumber", "[[channel]]\ndelay_ns = 1\n", "s.toml:1:1: key 'number': missing"},
+        BadScenario{"NoNumberLeft", "[[channel]]\n[[channel]]\n[[channel]]\ndelay_ns = 1\n",
+                    "s.toml:3:1: key 'number': the master has no channel 3"},
+        BadScenario{"NumberOfTheOrderTaken", "[[channel]]\nnumber = 2\n[[channel]]\n",
+                    "s.toml:3:1: key 'number': channel 2 is given twice, first in line 2; write "
+                    "number = 1"},
         BadScenario{"TwoOnes", "[[channel]]\nnumber = 1\n[[channel]]\nnumber = 1\n",
-                    "s.toml:4:10: key 'number': channel 1 is given twice"},
+                    "s.toml:4:10: key 'number': channel 1 is given twice, first in line 2; write "
+                    "number = 2"},
         BadScenario{"Delay", "[[channel]]\nnumber = 1\ndelay_ns = -0.5\n",
                     "s.toml:3:12: key 'delay_ns': -0.5 is outside 0 to 1e+06"},
         BadScenario{"DelayNan", "[[channel]]\nnumber = 1\ndelay_ns = nan\n",
@@ -303,14 +351,16 @@ INSTANTIATE_TEST_SUITE_P(
                     "s.toml:3:14: key 'flips': expected lists of a frame from 1 on and bits of 0 "
                     "to 4095"},
         BadScenario{"NoProtocol", "[[channel]]\nnumber = 1\n[[channel.slave]]\ndata_bits = 8\n",
-                    "s.toml:3:1: key 'protocol': missing"},
+                    "s.toml:3:1: key 'protocol': missing, and there is no preset"},
         BadScenario{"NoLength", slave(""), "s.toml:3:1: key 'data_bits': missing"},
         BadScenario{"Length", slave("data_bits = 65"),
                     "s.toml:5:13: key 'data_bits': 65 is outside 1 to 64"},
         BadScenario{"Crc", slave("data_bits = 8\ncrc = 0x42"),
                     "s.toml:6:7: key 'crc': not a full polynomial such as 0x43 (0 = no CRC)"},
-        BadScenario{"Data", slave("data_bits = 8\ndata = 0x100"),
-                    "s.toml:6:8: key 'data': does not fit into 8 bits"},
+        BadScenario{
+            "Data", slave("data_bits = 8\ndata = 0x100"),
+            "s.toml:6:8: key 'data': does not fit into 8 bits: 0x100 needs data_bits = 9, the "
+            "highest is 0xFF"},
         BadScenario{
             "Timeout", slave("data_bits = 8\ntimeout = \"soon\""),
             "s.toml:6:11: key 'timeout': expected \"adaptive\" or a number of microseconds"},
@@ -321,20 +371,23 @@ INSTANTIATE_TEST_SUITE_P(
         BadScenario{"DataAndSource", slave("data_bits = 8\nsource = \"ramp\"\ndata = 1"),
                     "s.toml:7:8: key 'data': cannot be given together with source"},
         BadScenario{"RampKeyWithoutRamp", slave("data_bits = 8\nstep = 1"),
-                    "s.toml:6:1: key 'step': unknown key"},
-        BadScenario{"SineWithoutPeriod", slave("data_bits = 8\nsource = \"sine\"\namplitude = 1"),
-                    "s.toml:3:1: key 'period_us': missing: source \"sine\" needs it"},
+                    "s.toml:6:1: key 'step': unknown key; it goes with source = \"ramp\""},
         BadScenario{"Register", slave("data_bits = 8\nregisters = { 0x144 = 1 }"),
-                    "s.toml:6:15: key '0x144': expected a register address of 0x00 to 0xFF"},
-        BadScenario{"RegisterValue", slave("data_bits = 8\nregisters = { 0x44 = [256] }"),
-                    "s.toml:6:23: key '0x44': expected bytes of 0 to 255"},
-        BadScenario{"RegisterPastEnd", slave("data_bits = 8\nregisters = { 0xFF = [1, 2] }"),
-                    "s.toml:6:26: key '0xFF': runs past register 0xFF"},
-        BadScenario{"RegisterTwice", slave("data_bits = 8\nregisters = { 0x44 = 1, 68 = 2 }"),
-                    "s.toml:6:30: key '68': register 0x44 is given twice"},
-        BadScenario{"RegistersOverlap",
-                    slave("data_bits = 8\nregisters = { 0x44 = [1, 2], 0x43 = [3, 4] }"),
-                    "s.toml:6:41: key '0x43': register 0x44 is given twice"},
+                    "s.toml:6:15: key '0x144': expected a register address of 0x00 to 0xFF (in "
+                    "[channel.slave.registers])"},
+        BadScenario{
+            "RegisterValue", slave("data_bits = 8\nregisters = { 0x44 = [256] }"),
+            "s.toml:6:23: key '0x44': expected bytes of 0 to 255 (in [channel.slave.registers])"},
+        BadScenario{
+            "RegisterPastEnd", slave("data_bits = 8\nregisters = { 0xFF = [1, 2] }"),
+            "s.toml:6:26: key '0xFF': runs past register 0xFF (in [channel.slave.registers])"},
+        BadScenario{
+            "RegisterTwice", slave("data_bits = 8\nregisters = { 0x44 = 1, 68 = 2 }"),
+            "s.toml:6:30: key '68': register 0x44 is given twice (in [channel.slave.registers])"},
+        BadScenario{
+            "RegistersOverlap",
+            slave("data_bits = 8\nregisters = { 0x44 = [1, 2], 0x43 = [3, 4] }"),
+            "s.toml:6:41: key '0x43': register 0x44 is given twice (in [channel.slave.registers])"},
         BadScenario{"Control", slave("data_bits = 8\ncontrol = 2"),
                     "s.toml:6:11: key 'control': expected true or false, found an integer"},
         BadScenario{"IdsWithoutControl", slave("data_bits = 8\ncontrol = false\nids = 1"),
@@ -343,18 +396,23 @@ INSTANTIATE_TEST_SUITE_P(
                     "s.toml:6:7: key 'ids': needs control = true"},
         BadScenario{"Ids", slave("data_bits = 8\nids = 9"),
                     "s.toml:6:7: key 'ids': 9 is outside 1 to 8"},
-        BadScenario{"Bank", slave("data_bits = 8\nbanks = { 256 = { 0 = 1 } }"),
-                    "s.toml:6:11: key '256': expected a bank of 1 to 255"},
-        BadScenario{"Bank0", slave("data_bits = 8\nbanks = { 0 = { 0 = 1 } }"),
-                    "s.toml:6:11: key '0': bank 0 is registers 0x00 to 0x3F"},
+        BadScenario{
+            "Bank", slave("data_bits = 8\nbanks = { 256 = { 0 = 1 } }"),
+            "s.toml:6:11: key '256': expected a bank of 1 to 255 (in [channel.slave.banks])"},
+        BadScenario{
+            "Bank0", slave("data_bits = 8\nbanks = { 0 = { 0 = 1 } }"),
+            "s.toml:6:11: key '0': bank 0 is registers 0x00 to 0x3F (in [channel.slave.banks])"},
         BadScenario{"BankTwice", slave("data_bits = 8\nbanks = { 1 = { 0 = 1 }, 0x1 = { } }"),
-                    "s.toml:6:26: key '0x1': bank 1 is given twice"},
+                    "s.toml:6:26: key '0x1': bank 1 is given twice (in [channel.slave.banks])"},
         BadScenario{"BankNoTable", slave("data_bits = 8\nbanks = { 1 = 3 }"),
-                    "s.toml:6:15: key '1': expected a table of bytes by address"},
+                    "s.toml:6:15: key '1': expected a table of bytes by address (in "
+                    "[channel.slave.banks])"},
         BadScenario{"BankAddress", slave("data_bits = 8\nbanks = { 1 = { 0x40 = 1 } }"),
-                    "s.toml:6:17: key '0x40': expected a register address of 0x00 to 0x3F"},
-        BadScenario{"BankPastEnd", slave("data_bits = 8\nbanks = { 1 = { 0x3F = [1, 2] } }"),
-                    "s.toml:6:28: key '0x3F': runs past register 0x3F"},
+                    "s.toml:6:17: key '0x40': expected a register address of 0x00 to 0x3F (in "
+                    "[channel.slave.banks.1])"},
+        BadScenario{
+            "BankPastEnd", slave("data_bits = 8\nbanks = { 1 = { 0x3F = [1, 2] } }"),
+            "s.toml:6:28: key '0x3F': runs past register 0x3F (in [channel.slave.banks.1])"},
         BadScenario{"Missing", slave("data_bits = 8\nmissing = 0x44"),
                     "s.toml:6:11: key 'missing': expected a list of register addresses"},
         BadScenario{"MissingAddress", slave("data_bits = 8\nmissing = [0x44, 0x100]"),
@@ -381,7 +439,8 @@ INSTANTIATE_TEST_SUITE_P(
             "s.toml:2:13: key 'interface': unknown value '\\x1b\\x00\\x85\\r', expected one "
             "of: spi, spi2, intel, motorola, axi, wb"},
         BadScenario{"ControlCharactersInKey", "\"a\\n\\u0007\" = 1\n",
-                    "s.toml:1:1: key 'a\\n\\x07': unknown key"},
+                    "s.toml:1:1: key 'a\\n\\x07': unknown key, known here: [[channel]], [chip], "
+                    "[[fault]], [host], [master], [sim]"},
         BadScenario{"NulInFileName",
                     slave("data_bits = 8\nsource = \"file\"\nfile = \"a\\u0000b\""),
                     "s.toml:7:8: key 'file': a file name cannot hold a NUL character"},
@@ -414,7 +473,9 @@ TEST(Scenario, NinthSlave_IsRefused) {
     parse_scenario(text, "s.toml");
     FAIL() << "accepted";
   } catch (const ScenarioError& error) {
-    EXPECT_STREQ(error.what(), "s.toml:27:1: key 'slave': more than 8 slaves on a channel");
+    EXPECT_STREQ(
+        error.what(),
+        "s.toml:27:1: key 'slave': more than 8 slaves on a channel (in [[channel.slave]])");
   }
 }
 

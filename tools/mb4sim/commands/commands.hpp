@@ -35,6 +35,8 @@ int spi_command(const SpiOptions& options);
 
 struct RegsOptions {
   std::string scenario;
+  std::vector<std::string> names;  // parts of names of fields or registers; empty: all
+  bool all = false;                // also what is as after reset
   std::uint64_t frames = 0;
   bool reset = false;
   bool json = false;
@@ -49,6 +51,8 @@ struct SweepOptions {
   std::uint64_t frames = 20;        // at each point
   std::string csv;                  // empty: none
   std::string svg;                  // empty: none
+  std::uint64_t jobs = 1;
+  bool json = false;
   std::optional<std::uint64_t> seed;
 };
 int sweep_command(const SweepOptions& options);
@@ -69,8 +73,22 @@ struct RegressOptions {
   std::string shard;       // "K/N"; empty: all runs
   bool merge = false;      // print what shards have found
   std::string cover_path;  // empty: no functional coverage
+  std::string junit;       // empty: none
+  bool json = false;
 };
 int regress_command(const RegressOptions& options);
+
+struct WatchOptions {
+  std::string scenario;
+  std::uint64_t milliseconds = 100;  // between two frames
+  std::optional<std::uint64_t> seed;
+};
+int watch_command(const WatchOptions& options);
+
+struct CheckOptions {
+  std::vector<std::string> scenarios;
+};
+int check_command(const CheckOptions& options);
 
 struct PresetsOptions {
   std::string name;  // empty: all

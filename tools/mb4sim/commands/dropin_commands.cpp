@@ -96,7 +96,8 @@ void add_plot(CLI::App& app, Action& action) {
       ->type_name("ID")
       ->transform(whole_number(0, 7));
   plot.add_option("--title", options->title, "Heading of the picture")->type_name("TEXT");
-  add_output(plot, "--svg", options->svg, "Write the picture to a file (default standard output)",
+  add_output(plot, "--svg", options->svg,
+             "Write the picture to a file (default standard output); .png: by rsvg-convert",
              "F.svg");
   add_output(plot, "--wavejson", options->wavejson, "Write the same picture for WaveDrom",
              "F.json");

@@ -13,7 +13,8 @@
 #include "commands/commands.hpp"
 #include "help_pages.hpp"
 #include "report/exit_status.hpp"
-#include "suggestion.hpp"
+#include "sim/core/suggestion.hpp"
+#include "sim/scenario/scenario_keys.hpp"
 #include "workload.hpp"
 
 namespace mb4::tool {
@@ -53,6 +54,19 @@ void add_presets(CLI::App& app, Action& action) {
       "bits: position and flags, - = the scenario has to say (data_bits). registers: yes = reached "
       "through BiSS.\n"
       "Example: mb4sim presets resolute-26 > my.toml");
+}
+
+void add_schema(CLI::App& app, Action& action) {
+  CLI::App& schema = *app.add_subcommand("schema", "Print a JSON Schema of scenario files");
+  schema.footer(
+      "docs/scenario.schema.json is the same with a sentence for each key.\n"
+      "Example: mb4sim schema > scenario.schema.json");
+  schema.callback([&action] {
+    action = [] {
+      fmt::print("{}", sim::scenario_schema());
+      return kGood;
+    };
+  });
 }
 
 void add_completion(CLI::App& app, Action& action) {
@@ -100,7 +114,7 @@ void add_help(CLI::App& app, Action& action) {
       } else if (std::find(known.begin(), known.end(), *name) != known.end()) {
         fmt::print("{}", app.get_subcommand(*name)->help(app.get_name()));
       } else {
-        const std::string meant = suggestion(*name, known);
+        const std::string meant = sim::suggestion(*name, known);
         throw UseError(fmt::format("there is no command '{}'{}", *name,
                                    meant.empty() ? "; 'mb4sim help' lists them" : meant));
       }
@@ -113,6 +127,7 @@ void add_help(CLI::App& app, Action& action) {
 
 void add_other_commands(CLI::App& app, Action& action) {
   add_presets(app, action);
+  add_schema(app, action);
   add_bench(app, action);
   add_completion(app, action);
   add_man(app, action);

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/core.h>
+#include <unistd.h>
 
 #include <charconv>
 #include <cstdio>
@@ -16,7 +17,9 @@
 #include "plot/wave_json.hpp"
 #include "report/exit_status.hpp"
 #include "report/output_file.hpp"
+#include "report/picture_file.hpp"
 #include "report/trace_file.hpp"
+#include "scenario_argument.hpp"
 #include "session.hpp"
 #include "sim/scenario/scenario.hpp"
 
@@ -120,6 +123,10 @@ void check(const PlotOptions& options, const sim::Scenario& scenario) {
     throw UseError(fmt::format("{}: the master \"{}\" makes no control frames", options.scenario,
                                scenario.master->type));
   }
+  if (options.svg.empty() && options.wavejson.empty() && options.vcd.empty() &&
+      ::isatty(STDOUT_FILENO) != 0) {
+    throw UseError("plot prints SVG, which no terminal shows: give --svg FILE.svg, or > FILE.svg");
+  }
   // Mistakes in numbers show before anything is written.
   if (is_control(options)) request_of(options);
 }
@@ -127,7 +134,7 @@ void check(const PlotOptions& options, const sim::Scenario& scenario) {
 }  // namespace
 
 int plot_command(const PlotOptions& options) {
-  const sim::Scenario scenario = sim::load_scenario(options.scenario);
+  const sim::Scenario scenario = open_scenario(options.scenario);
   const MasterSupport& support = support_of(scenario);
   support.check(scenario);
   check(options, scenario);
@@ -140,10 +147,10 @@ int plot_command(const PlotOptions& options) {
     outputs.push_back({name, partial_path(path)});
   }
   require_distinct(outputs, inputs_of(options.scenario, scenario));
-  std::unique_ptr<OutputFile> svg;
+  std::unique_ptr<PictureFile> svg;
   std::unique_ptr<OutputFile> wavejson;
   std::unique_ptr<OutputFile> vcd;
-  if (!options.svg.empty()) svg = std::make_unique<OutputFile>(options.svg);
+  if (!options.svg.empty()) svg = std::make_unique<PictureFile>(options.svg);
   if (!options.wavejson.empty()) wavejson = std::make_unique<OutputFile>(options.wavejson);
   if (!options.vcd.empty()) vcd = std::make_unique<OutputFile>(options.vcd);
 

@@ -8,9 +8,10 @@
 #include "commands/commands.hpp"
 #include "report/exit_status.hpp"
 #include "report/messages.hpp"
+#include "scenario_argument.hpp"
 #include "sim/core/one_line.hpp"
+#include "sim/core/suggestion.hpp"
 #include "sim/lines/presets.hpp"
-#include "suggestion.hpp"
 
 namespace mb4::tool {
 namespace {
@@ -67,20 +68,6 @@ void print_json() {
   fmt::print("\n]\n");
 }
 
-// A scenario to start from.
-void print_scenario(const sim::Preset& preset) {
-  const Cells c = cells(preset);
-  fmt::print("# {}\n\n", preset.description);
-  // SSI and BiSS B slaves follow a slow MA only.
-  if (c.protocol != "biss-c") fmt::print("[host]\nma_hz = 1_000_000\n\n");
-  fmt::print("[[channel]]\nnumber = 1\ncable_m = 10\n\n");
-  fmt::print("[[channel.slave]]\nprotocol = \"{}\"\npreset = \"{}\"\n", c.protocol, preset.name);
-  if (c.data_bits == "-") {
-    fmt::print("data_bits = 26  # position and flags; depends on the type of encoder\n");
-  }
-  fmt::print("source = \"ramp\"\nstep = 100\n");
-}
-
 }  // namespace
 
 int presets_command(const PresetsOptions& options) {
@@ -89,11 +76,11 @@ int presets_command(const PresetsOptions& options) {
     if (preset == nullptr) {
       std::vector<std::string> names;
       for (const sim::Preset& each : sim::presets()) names.emplace_back(each.name);
-      const std::string meant = suggestion(options.name, names);
+      const std::string meant = sim::suggestion(options.name, names);
       throw UseError(fmt::format("there is no preset '{}'{}", sim::one_line(options.name),
                                  meant.empty() ? "; 'mb4sim presets' lists them" : meant));
     }
-    print_scenario(*preset);
+    fmt::print("{}", preset_scenario(*preset));
   } else if (options.json) {
     print_json();
   } else {

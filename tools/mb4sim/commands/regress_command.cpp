@@ -14,11 +14,14 @@
 
 #include "commands/commands.hpp"
 #include "mb4sim/simulator.hpp"
+#include "report/colour.hpp"
 #include "report/exit_status.hpp"
 #include "report/fault_report.hpp"
 #include "report/frame_report.hpp"
+#include "report/messages.hpp"
 #include "report/output_file.hpp"
 #include "report/progress.hpp"
+#include "scenario_argument.hpp"
 #include "session.hpp"
 #include "sim/core/one_line.hpp"
 #include "sim/masters/mb4/functional_coverage.hpp"
@@ -144,41 +147,111 @@ Row run_one(const std::string& path, const sim::Scenario& scenario, std::uint64_
   return row;
 }
 
+std::string xml_text(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      default:
+        out += c;
+    }
+  }
+  return out;
+}
+
+// A run as a test of JUnit.
+std::string junit_case(const Row& row) {
+  const std::string begin = fmt::format("  <testcase classname=\"{}\" name=\"seed {}\"",
+                                        xml_text(row.scenario), row.seed);
+  if (row.status == kGood) return begin + "/>\n";
+  return begin +
+         fmt::format(
+             ">\n    <failure message=\"{}\">good {}, bad {}, faults {}, missed {}; repeat: "
+             "mb4sim run {} --seed {}</failure>\n  </testcase>\n",
+             xml_text(row.state), row.good, row.bad, row.faults, row.missed, xml_text(row.scenario),
+             row.seed);
+}
+
 // The table and the sums of a batch.
 class Table {
  public:
-  explicit Table(const RegressOptions& options) {
+  explicit Table(const RegressOptions& options) : json_(options.json) {
     if (!options.cover_path.empty()) {
       require_distinct({{"--cover", options.cover_path}}, options.scenarios);
       cover_file_.emplace(options.cover_path);
     }
+    if (!options.junit.empty()) {
+      require_distinct({{"--junit", options.junit}}, options.scenarios);
+      junit_file_.emplace(options.junit);
+    }
   }
   void head() const {
+    if (json_) {
+      fmt::print("{{\"runs\": [");
+      return;
+    }
     fmt::print(kRegressRow, "scenario", "seed", "good", "bad", "faults", "missed", "state");
     std::fflush(stdout);
   }
-  void print(const Row& row) const {
-    fmt::print(kRegressRow, row.scenario, row.seed, row.good, row.bad, row.faults, row.missed,
-               row.state);
+  void print(const Row& row) {
+    if (json_) {
+      fmt::print(
+          "{}\n  {{\"scenario\": {}, \"seed\": {}, \"good\": {}, \"bad\": {}, \"faults\": {}, "
+          "\"missed\": {}, \"status\": {}, \"state\": {}}}",
+          any_ ? "," : "", json_text(row.scenario), row.seed, row.good, row.bad, row.faults,
+          row.missed, row.status, json_text(row.state));
+      any_ = true;
+      return;
+    }
+    fmt::print("{}", coloured(fmt::format(kRegressRow, row.scenario, row.seed, row.good, row.bad,
+                                          row.faults, row.missed, row.state),
+                              row.status == kGood));
   }
   void count(const Row& row) {
+    ++runs_;
     status_ = std::max(status_, row.status);
     if (row.status != kGood) ++failed_;
     coverage_.add(row.coverage);
+    if (junit_file_) cases_ += junit_case(row);
   }
-  void sums(std::uint64_t runs) const { fmt::print("runs {}, failed {}\n", runs, failed_); }
+  void sums(std::uint64_t runs) const {
+    if (json_) {
+      fmt::print("\n], \"failed\": {}}}\n", failed_);
+    } else {
+      fmt::print("runs {}, failed {}\n", runs, failed_);
+    }
+  }
   // Writes the file of --cover. Returns the exit status.
   int finish(bool print) {
+    if (junit_file_) {
+      junit_file_->commit(fmt::format(
+          "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuite name=\"mb4sim regress\" "
+          "tests=\"{}\" failures=\"{}\">\n{}</testsuite>\n",
+          runs_, failed_, cases_));
+    }
     if (!cover_file_) return status_;
     cover_file_->commit(coverage_.text());
-    if (print) {
+    if (print && !json_) {
       fmt::print("functional coverage {} of {} points\n", coverage_.reached(), coverage_.points());
     }
     return status_;
   }
 
  private:
+  bool json_;
+  bool any_ = false;
   std::optional<OutputFile> cover_file_;
+  std::optional<OutputFile> junit_file_;
+  std::string cases_;  // of JUnit
+  std::uint64_t runs_ = 0;
   sim::FunctionalCoverage coverage_;
   std::uint64_t failed_ = 0;
   int status_ = kGood;
@@ -209,7 +282,7 @@ int run_shard(const RegressOptions& options) {
   const Shard shard(options.shard);
   std::vector<sim::Scenario> scenarios;
   for (const std::string& path : options.scenarios) {
-    const sim::Scenario& scenario = scenarios.emplace_back(sim::load_scenario(path));
+    const sim::Scenario& scenario = scenarios.emplace_back(open_scenario(path));
     support_of(scenario).check(scenario);
     if (!options.cover_path.empty() && !support_of(scenario).coverage) {
       throw UseError(fmt::format("--cover: {}: there are no points for the master \"{}\"",

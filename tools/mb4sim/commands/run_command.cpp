@@ -15,6 +15,7 @@
 #include "commands/run_outputs.hpp"
 #include "interrupts.hpp"
 #include "mb4sim/simulator.hpp"
+#include "report/colour.hpp"
 #include "report/exit_status.hpp"
 #include "report/fault_report.hpp"
 #include "report/frame_report.hpp"
@@ -22,6 +23,7 @@
 #include "report/messages.hpp"
 #include "report/output_file.hpp"
 #include "report/progress.hpp"
+#include "scenario_argument.hpp"
 #include "session.hpp"
 #include "sim/core/text_file.hpp"
 #include "sim/scenario/scenario.hpp"
@@ -53,11 +55,11 @@ class RunPrinter {
     progress_.clear();
     if (!options_.json) fmt::print("{}", faults_->new_lines());
     for (std::size_t i = 0; i < session.slaves().size(); ++i) {
-      frames_.add(frame, session.slaves()[i].number, i);
+      const bool good = frames_.add(frame, session.slaves()[i].number, i).good();
       if (frame.kind(i) != SlaveOutcome::Kind::kRight) {
         missed_ |= std::uint64_t{1} << (session.slaves()[i].number - 1);
       }
-      fmt::print("{}", options_.json ? frames_.json_row() : frames_.table_row());
+      fmt::print("{}", options_.json ? frames_.json_row() : coloured(frames_.table_row(), good));
       if (outputs_.csv != nullptr) outputs_.csv->append(frames_.csv_row());
     }
     if (outputs_.bus_log != nullptr) outputs_.bus_log->append(session.take_bus_log());
@@ -162,7 +164,7 @@ std::optional<SessionFrame> read_frames(const RunOptions& options, const Interru
 }  // namespace
 
 int run_command(const RunOptions& options) {
-  const sim::Scenario scenario = sim::load_scenario(options.scenario);
+  const sim::Scenario scenario = open_scenario(options.scenario);
   const MasterSupport& support = support_of(scenario);
   support.check(scenario);
   // The scenario has been checked before the first file is opened.

@@ -12,6 +12,7 @@
 #include "report/exit_status.hpp"
 #include "report/fault_report.hpp"
 #include "report/messages.hpp"
+#include "scenario_argument.hpp"
 #include "session.hpp"
 #include "sim/scenario/scenario.hpp"
 
@@ -86,7 +87,7 @@ void print_json(const std::vector<ScannedSlave>& list, const std::string& notes)
 }  // namespace
 
 int scan_command(const ScanOptions& options) {
-  const sim::Scenario scenario = sim::load_scenario(options.scenario);
+  const sim::Scenario scenario = open_scenario(options.scenario);
   const MasterSupport& support = support_of(scenario);
   if (support.scan == nullptr) {
     throw sim::ScenarioError(

@@ -22,6 +22,16 @@ void add_frames(CLI::App& command, std::uint64_t& frames, const char* descriptio
       ->transform(whole_number(minimum, kMaxFrames));
 }
 
+void add_jobs(CLI::App& command, std::uint64_t& jobs) {
+  constexpr std::uint64_t kMaxJobs = 256;
+  jobs = std::min<std::uint64_t>(usable_cores(), kMaxJobs);
+  command
+      .add_option("--jobs", jobs,
+                  "Processes that work at the same time (default: one for each processor)")
+      ->type_name("N")
+      ->transform(whole_number(1, kMaxJobs));
+}
+
 void add_time(CLI::App& command, const char* option, std::optional<double>& us,
               const char* description) {
   command.add_option(option, us, description)->type_name("US")->check(microseconds());
@@ -86,7 +96,10 @@ void add_sweep(CLI::App& app, Action& action) {
       "or all (default: as the scenario says)");
   add_frames(sweep, options->frames, "Frames at each point (default 20)", 1);
   add_output(sweep, "--csv", options->csv, "Also write one line a point");
-  add_output(sweep, "--svg", options->svg, "Also draw the eye margin", "F.svg");
+  add_output(sweep, "--svg", options->svg, "Also draw the eye margin (.png: by rsvg-convert)",
+             "F.svg");
+  add_jobs(sweep, options->jobs);
+  sweep.add_flag("--json", options->json, "Print JSON instead of the tables");
   add_seed(sweep, options->seed);
   sweep.footer(
       "LIST is A, A,B,C or FROM:TO:STEP. The rest of the cable is as the scenario says. Exit "
@@ -94,6 +107,32 @@ void add_sweep(CLI::App& app, Action& action) {
       "by "
       "SAMPLE.\n"
       "Example: mb4sim sweep examples/resolute-26.toml --jitters 0:60:5 --freqs 0,3 --svg eye.svg");
+}
+
+void add_watch(CLI::App& app, Action& action) {
+  constexpr std::uint64_t kSlowest = 60'000;
+  std::shared_ptr<WatchOptions> options;
+  CLI::App& watch = *add_command(app, action, "watch", "Show the positions until a key is pressed",
+                                 &watch_command, options);
+  add_scenario(watch, options->scenario);
+  watch.add_option("--every", options->milliseconds, "Time from frame to frame (default 100 ms)")
+      ->type_name("MS")
+      ->transform(whole_number(1, kSlowest));
+  add_seed(watch, options->seed);
+  watch.footer("Exit status 1: a frame was bad.\nExample: mb4sim watch examples/ramp-sensor.toml");
+}
+
+void add_check(CLI::App& app, Action& action) {
+  std::shared_ptr<CheckOptions> options;
+  CLI::App& check = *add_command(app, action, "check", "Say whether scenarios can be run",
+                                 &check_command, options);
+  check.add_option("scenarios", options->scenarios, "Scenario files (TOML)")
+      ->required()
+      ->type_name("SCENARIO")
+      ->check(file_name());
+  check.footer(
+      "Prints 'ok' for each file that run accepts, else what is wrong. Nothing is simulated.\n"
+      "Example: mb4sim check examples/resolute-26.toml");
 }
 
 void add_regs(CLI::App& app, Action& action) {
@@ -104,8 +143,15 @@ void add_regs(CLI::App& app, Action& action) {
   add_frames(regs, options->frames, "Frames to read before (default 0)", 0);
   regs.add_flag("--reset", options->reset, "As after reset, without configuring the chip")
       ->excludes("--frames");
+  regs.add_option("names", options->names, "Only fields with one of these words in their name")
+      ->type_name("NAME");
+  regs.add_flag("--all", options->all, "Also what is as after reset");
   regs.add_flag("--json", options->json, "Print JSON instead of the table");
-  regs.footer("Example: mb4sim regs examples/resolute-26.toml --frames 1");
+  regs.footer(
+      "A field that is as after reset is left out, unless it is named. Frequencies follow from the "
+      "clock.\n"
+      "Examples: mb4sim regs examples/resolute-26.toml --frames 1\n"
+      "  mb4sim regs examples/resolute-26.toml FREQ CFGCH");
 }
 
 void add_scan(CLI::App& app, Action& action) {
@@ -124,11 +170,9 @@ void add_scan(CLI::App& app, Action& action) {
 }
 
 void add_regress(CLI::App& app, Action& action) {
-  constexpr std::uint64_t kMaxJobs = 256;
   std::shared_ptr<RegressOptions> options;
   CLI::App& regress = *add_command(app, action, "regress", "Run scenarios with many seeds",
                                    &regress_command, options);
-  options->jobs = std::min<std::uint64_t>(usable_cores(), kMaxJobs);
   regress
       .add_option("scenarios", options->scenarios,
                   "Scenario files (TOML); with --merge outputs of shards")
@@ -144,11 +188,7 @@ void add_regress(CLI::App& app, Action& action) {
   regress.add_option("--first-seed", options->first_seed, "Seed of the first of them (default 1)")
       ->type_name("S")
       ->transform(whole_number(0, std::numeric_limits<std::uint64_t>::max()));
-  regress
-      .add_option("--jobs", options->jobs,
-                  "Processes that work at the same time (default: one for each processor)")
-      ->type_name("N")
-      ->transform(whole_number(1, kMaxJobs));
+  add_jobs(regress, options->jobs);
   regress
       .add_option("--shard", options->shard, "Only part K of N parts; the output is for --merge")
       ->type_name("K/N")
@@ -163,6 +203,8 @@ void add_regress(CLI::App& app, Action& action) {
                   "Write how often each value of a field met each kind of frame")
       ->type_name("FILE")
       ->check(file_name());
+  add_output(regress, "--junit", options->junit, "Also write the runs as JUnit XML", "F.xml");
+  regress.add_flag("--json", options->json, "Print JSON instead of the table")->excludes("--shard");
   regress.footer(
       "The output does not depend on --jobs. Look at a failed run with: mb4sim run SCENARIO --seed "
       "S --frames N\n"
@@ -175,6 +217,8 @@ void add_regress(CLI::App& app, Action& action) {
 
 void add_scenario_commands(CLI::App& app, Action& action) {
   add_run(app, action);
+  add_watch(app, action);
+  add_check(app, action);
   add_spi(app, action);
   add_regs(app, action);
   add_scan(app, action);

@@ -2,23 +2,31 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
+#include <sstream>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "commands/commands.hpp"
+#include "mb4sim/model_stopped.hpp"
 #include "number_list.hpp"
 #include "report/exit_status.hpp"
 #include "report/output_file.hpp"
+#include "report/picture_file.hpp"
+#include "report/progress.hpp"
 #include "report/sweep_report.hpp"
 #include "report/trace_file.hpp"
+#include "scenario_argument.hpp"
 #include "session.hpp"
 #include "sim/core/one_line.hpp"
 #include "sim/core/random.hpp"
 #include "sim/lines/clocked/clocked_line.hpp"
 #include "sim/scenario/scenario.hpp"
+#include "worker_pool.hpp"
 
 namespace mb4::tool {
 namespace {
@@ -98,42 +106,94 @@ SweepPoint measure(const sim::Scenario& scenario, std::uint64_t frames, std::uin
   return point;
 }
 
-// Each point has a chip and random choices of its own.
-SweepPlane sweep_plane(sim::Scenario scenario, unsigned code, const Sweep& sweep) {
+// A plane without its points.
+SweepPlane empty_plane(const sim::Scenario& scenario, unsigned code) {
   const std::uint64_t clk_hz = scenario.chip.system_hz();
   const SweepCodes& all = support_of(scenario).sweep;
-  const unsigned divider = all.divider(clk_hz, code);
   SweepPlane plane;
   plane.code = code;
-  plane.ma_hz = clk_hz / divider;
+  plane.ma_hz = clk_hz / all.divider(clk_hz, code);
   if (all.allowed != nullptr) plane.allowed_mpercent = all.allowed(code);
   if (all.title != nullptr) plane.title = all.title(code);
-  set_code(scenario, code);
-  const double period_ps = 1e12 * divider / static_cast<double>(clk_hz);
-  std::uint64_t part = std::uint64_t{code} << 32U;
-  for (const long long delay : sweep.delays_ps) {
-    std::vector<SweepPoint> row;
-    for (const long long jitter : sweep.jitters_mpercent) {
-      for (sim::ChannelConfig& channel : scenario.channels) {
-        channel.cable->delay = static_cast<sim::Time>(delay);
-        const auto time = static_cast<sim::Time>(period_ps * static_cast<double>(jitter) / 100'000);
-        if (all.set_jitter != nullptr) {
-          all.set_jitter(*channel.cable, time);
-        } else {
-          channel.cable.as<sim::ClockedConfig>().sl.jitter = time;
-        }
-      }
-      row.push_back(measure(scenario, sweep.frames, sim::derive_seed(sweep.seed, ++part)));
-    }
-    plane.points.push_back(std::move(row));
-  }
   return plane;
+}
+
+// Where a point stands: its plane, delay and jitter.
+struct Place {
+  std::size_t plane, delay, jitter;
+};
+
+// Each point has a chip and random choices of its own.
+SweepPoint measure_at(sim::Scenario scenario, const Sweep& sweep, const Place& place) {
+  const std::uint64_t clk_hz = scenario.chip.system_hz();
+  const SweepCodes& all = support_of(scenario).sweep;
+  const unsigned code = sweep.planes[place.plane].code;
+  const double period_ps = 1e12 * all.divider(clk_hz, code) / static_cast<double>(clk_hz);
+  set_code(scenario, code);
+  const auto jitter = static_cast<double>(sweep.jitters_mpercent[place.jitter]);
+  const auto time = static_cast<sim::Time>(period_ps * jitter / 100'000);
+  for (sim::ChannelConfig& channel : scenario.channels) {
+    channel.cable->delay = static_cast<sim::Time>(sweep.delays_ps[place.delay]);
+    if (all.set_jitter != nullptr) {
+      all.set_jitter(*channel.cable, time);
+    } else {
+      channel.cable.as<sim::ClockedConfig>().sl.jitter = time;
+    }
+  }
+  const std::uint64_t part =
+      (std::uint64_t{code} << 32U) + place.delay * sweep.jitters_mpercent.size() + place.jitter + 1;
+  return measure(scenario, sweep.frames, sim::derive_seed(sweep.seed, part));
+}
+
+// What a worker returns: the counts, or why there are none.
+std::string point_text(const sim::Scenario& scenario, const Sweep& sweep, const Place& place) {
+  try {
+    const SweepPoint point = measure_at(scenario, sweep, place);
+    return fmt::format("{} {} {}", point.words, point.flagged, point.wrong);
+  } catch (const sim::ModelStopped& error) {
+    return fmt::format("stopped {}", error.what());
+  } catch (const std::runtime_error& error) {
+    return fmt::format("error {}", error.what());
+  }
+}
+
+SweepPoint point_of(const std::string& text) {
+  const std::string rest = text.substr(std::min(text.find(' '), text.size() - 1) + 1);
+  if (text.starts_with("stopped")) throw sim::ModelStopped(rest);
+  if (text.starts_with("error")) throw UseError(rest);
+  std::istringstream in(text);
+  SweepPoint point;
+  if (!(in >> point.words >> point.flagged >> point.wrong)) {
+    throw sim::ModelStopped("a worker has died");
+  }
+  return point;
+}
+
+// Fills the planes. The result does not depend on the number of jobs.
+void measure_all(const sim::Scenario& scenario, std::uint64_t jobs, Sweep& sweep) {
+  const std::size_t jitters = sweep.jitters_mpercent.size();
+  const std::size_t in_plane = sweep.delays_ps.size() * jitters;
+  const std::uint64_t count = sweep.planes.size() * in_plane;
+  const auto place_of = [&](std::uint64_t index) {
+    return Place{index / in_plane, index % in_plane / jitters, index % jitters};
+  };
+  for (SweepPlane& plane : sweep.planes) plane.points.resize(sweep.delays_ps.size());
+  Progress progress(count);
+  std::uint64_t done = 0;
+  run_jobs(
+      count, static_cast<unsigned>(jobs),
+      [&](std::uint64_t index) { return point_text(scenario, sweep, place_of(index)); },
+      [&](const std::string& text) {
+        const Place place = place_of(done);
+        sweep.planes[place.plane].points[place.delay].push_back(point_of(text));
+        progress.update(++done);
+      });
 }
 
 }  // namespace
 
 int sweep_command(const SweepOptions& options) {
-  const sim::Scenario scenario = sim::load_scenario(options.scenario);
+  const sim::Scenario scenario = open_scenario(options.scenario);
   const MasterSupport& support = support_of(scenario);
   if (support.sweep.divider == nullptr) {
     throw UseError(fmt::format("{}: the master \"{}\" has no codes of a frequency to sweep",
@@ -167,12 +227,13 @@ int sweep_command(const SweepOptions& options) {
   }
   require_distinct(outputs, inputs_of(options.scenario, scenario));
   std::unique_ptr<OutputFile> csv;
-  std::unique_ptr<OutputFile> svg;
+  std::unique_ptr<PictureFile> svg;
   if (!options.csv.empty()) csv = std::make_unique<OutputFile>(options.csv);
-  if (!options.svg.empty()) svg = std::make_unique<OutputFile>(options.svg);
+  if (!options.svg.empty()) svg = std::make_unique<PictureFile>(options.svg);
 
-  for (const unsigned code : codes) sweep.planes.push_back(sweep_plane(scenario, code, sweep));
-  fmt::print("{}", sweep_text(sweep));
+  for (const unsigned code : codes) sweep.planes.push_back(empty_plane(scenario, code));
+  measure_all(scenario, options.jobs, sweep);
+  fmt::print("{}", options.json ? sweep_json(sweep) : sweep_text(sweep));
   if (csv != nullptr) csv->commit(sweep_csv(sweep));
   if (svg != nullptr) svg->commit(sweep_svg(sweep));
   return sweep.within_allowed() ? kGood : kBad;

@@ -8,6 +8,9 @@
 #include <cctype>
 #include <cmath>
 
+#include "report/colour.hpp"
+#include "sim/core/json_text.hpp"
+
 namespace mb4::tool {
 namespace {
 
@@ -35,7 +38,7 @@ std::string plane_text(const Sweep& sweep, const SweepPlane& plane) {
   for (std::size_t d = 0; d < sweep.delays_ps.size(); ++d) {
     out += fmt::format("{:>{}}", thousandths(sweep.delays_ps[d]), kFirstColumn);
     for (const SweepPoint& point : plane.points[d]) {
-      out += fmt::format("{:>{}}", cell(point), width);
+      out += coloured(fmt::format("{:>{}}", cell(point), width), point.bad() == 0);
     }
     out += '\n';
   }
@@ -112,6 +115,32 @@ std::string sweep_text(const Sweep& sweep) {
                                : "BAD",
       sweep.seed);
   return out;
+}
+
+std::string sweep_json(const Sweep& sweep) {
+  std::string out = fmt::format(
+      "{{\"scenario\": {}, \"seed\": {}, \"frames\": {}, \"code_name\": {}, \"period\": {}, "
+      "\"good\": {}, \"planes\": [",
+      sim::json_text(sweep.scenario), sweep.seed, sweep.frames, sim::json_text(sweep.code_name),
+      sim::json_text(sweep.period), sweep.within_allowed());
+  for (const SweepPlane& plane : sweep.planes) {
+    out +=
+        fmt::format("{}\n  {{\"code\": {}, \"ma_hz\": {}, \"allowed_percent\": {}, \"points\": [",
+                    &plane == &sweep.planes.front() ? "" : ",", plane.code, plane.ma_hz,
+                    thousandths(plane.allowed_mpercent));
+    for (std::size_t d = 0; d < sweep.delays_ps.size(); ++d) {
+      for (std::size_t j = 0; j < sweep.jitters_mpercent.size(); ++j) {
+        const SweepPoint& point = plane.points[d][j];
+        out += fmt::format(
+            "{}\n    {{\"delay_ns\": {}, \"jitter_percent\": {}, \"words\": {}, \"flagged\": {}, "
+            "\"wrong\": {}}}",
+            d + j == 0 ? "" : ",", thousandths(sweep.delays_ps[d]),
+            thousandths(sweep.jitters_mpercent[j]), point.words, point.flagged, point.wrong);
+      }
+    }
+    out += "\n  ]}";
+  }
+  return out + "\n]}\n";
 }
 
 std::string sweep_csv(const Sweep& sweep) {

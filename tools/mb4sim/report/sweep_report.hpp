@@ -56,6 +56,8 @@ struct Sweep {
 
 // A table of bad words for each plane, and a summary.
 std::string sweep_text(const Sweep& sweep);
+// The same as one object.
+std::string sweep_json(const Sweep& sweep);
 // One line a point, with a header.
 std::string sweep_csv(const Sweep& sweep);
 // Eye margin: the share of bad words over delay and jitter, one panel for each plane.

@@ -133,6 +133,10 @@ class Field:
         self.width: int = sum(part["width"] for part in parts)
         self._parts = [(registers[part["address"]], part["lsb"], part["width"]) for part in parts]
         self._bus = bus
+        #: {name: code}, such as {"BiSS_C": 1} of CFGCH1
+        self.codes: Dict[str, int] = {
+            name: codes[0] for codes, name in zip(parts[0]["codes"], parts[0].get("names", []))
+            if name and len(parts) == 1}
 
     def __repr__(self) -> str:
         return f"<field {self.name}, {self.width} bits in {self.register!r}>"
@@ -150,12 +154,17 @@ class Field:
             shift += width
         return value
 
+    def read_name(self) -> str:
+        """The name of the code that the field holds, such as "BiSS_C", else the number as text."""
+        value = self.read()
+        return next((name for name, code in self.codes.items() if code == value), str(value))
+
     @property
     def modifies(self) -> bool:
         """modify() is possible."""
         return self.access not in ("ro", "rom", "w0c") and self.register.name != "INSTR"
 
-    def modify(self, value: int) -> None:
+    def modify(self, value: Union[int, str]) -> None:
         """Reads the register, changes the bits of this field, writes the register. Refused where
         that does harm: at INSTR (0xF4), where a written 1 is an instruction, at SVALID, where a
         written 0 clears what came in meanwhile, and at fields that are only read."""
@@ -164,6 +173,12 @@ class Field:
         if not self.modifies:
             raise Error(f"{self.name}: a read-modify-write of {self.register.name} does harm; "
                         f"write the whole register, regs.{self.name}.register.write()")
+        if isinstance(value, str):
+            if value not in self.codes:
+                known = ", ".join(self.codes)
+                raise Error(f"{self.name}: no code has the name '{value}'; "
+                            f"{f'they are {known}' if known else 'its codes have no names'}")
+            value = self.codes[value]
         if not 0 <= value < 1 << self.width:
             raise Error(f"{self.name}: {value} has more than {self.width} bits; it is 0 to "
                         f"{(1 << self.width) - 1}")

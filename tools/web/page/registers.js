@@ -31,6 +31,11 @@ class Registers {
     for (const field of this.fields.values()) {
       field.width = field.parts.reduce((sum, part) => sum + part.width, 0);
       field.address = field.parts[0].address;
+      field.codes = new Map();  // name: code
+      const {codes, names} = field.parts[0];
+      if (field.parts.length === 1 && names !== undefined) {
+        names.forEach((name, i) => { if (name !== "") field.codes.set(name, BigInt(codes[i][0])); });
+      }
     }
   }
 
@@ -63,6 +68,17 @@ class Registers {
       shift += BigInt(part.width);
     }
     return value;
+  }
+
+  // The name of a code of a field; empty: it has none.
+  static nameOf(field, value) {
+    for (const [name, code] of field.codes) if (code === value) return name;
+    return "";
+  }
+
+  // What a user types: a number, or the name of a code. null: neither.
+  static parse(field, text) {
+    return field.codes.get(text.trim()) ?? parseNumber(text);
   }
 
   modify(name, value) {
@@ -143,7 +159,7 @@ class RegisterView {
       const change = () => {
         if (input.value === input.dataset.shown) return;
         try {
-          this.registers.modify(field.name, parseNumber(input.value));
+          this.registers.modify(field.name, Registers.parse(field, input.value));
           this.tell(`${field.name} is written`, false);
         } catch (error) {
           this.tell(error.message, true);
@@ -161,8 +177,13 @@ class RegisterView {
       });
       input.addEventListener("blur", () => { input.value = input.dataset.shown; });
       label.append(input);
+      const word = Object.assign(document.createElement("span"), {className: "hint word"});
+      if (field.codes.size > 0) {
+        input.title = [...field.codes].map(([name, code]) => `${code}: ${name}`).join("\n");
+        label.append(word);
+      }
       holder.append(label);
-      group.inputs.push({field, input});
+      group.inputs.push({field, input, word});
     }
     group.details.append(holder);
   }
@@ -179,8 +200,9 @@ class RegisterView {
         this.tell(error.message, true);
         return;
       }
-      for (const {field, input} of group.inputs) {
+      for (const {field, input, word} of group.inputs) {
         const value = Registers.value(field, bytes);
+        word.textContent = Registers.nameOf(field, value);
         const text = field.width >= 8 ? hex(value, Math.ceil(field.width / 4)) : String(value);
         const changing = document.activeElement === input && input.value !== input.dataset.shown;
         input.closest("label").classList.toggle("new", "shown" in input.dataset &&

@@ -12,6 +12,7 @@
 #include "sim/lines/clocked/clocked_line.hpp"
 #include "sim/masters/mb4/pins.hpp"
 #include "sim/scenario/scenario.hpp"
+#include "tests/support/scenario_place.hpp"
 
 namespace mb4test {
 
@@ -73,7 +74,8 @@ TEST_P(BadCables, AreRefusedWithPlaceAndKey) {
     parse(GetParam().keys);
     FAIL() << "accepted";
   } catch (const ScenarioError& error) {
-    EXPECT_STREQ(error.what(), GetParam().message);
+    const std::string text = channel(GetParam().keys);
+    EXPECT_EQ(error.what(), with_section(text, GetParam().message));
   }
 }
 
@@ -93,7 +95,8 @@ INSTANTIATE_TEST_SUITE_P(
                  "s.toml:3:18: key 'glitches_per_s': 10000001 is outside 0 to 10000000"},
         BadCable{"OpenLevel", "open_level = 2",
                  "s.toml:3:14: key 'open_level': 2 is outside 0 to 1"},
-        BadCable{"Misspelt", "jiter_ns = 1", "s.toml:3:1: key 'jiter_ns': unknown key"},
+        BadCable{"Misspelt", "jiter_ns = 1",
+                 "s.toml:3:1: key 'jiter_ns': unknown key, did you mean 'jitter_ns'?"},
         BadCable{"EventWithoutTime", "[[channel.event]]\naction = \"plug\"",
                  "s.toml:3:1: key 'at_us': missing"},
         BadCable{"EventWithoutAction", "[[channel.event]]\nat_us = 1",
@@ -102,7 +105,7 @@ INSTANTIATE_TEST_SUITE_P(
                  "s.toml:5:10: key 'action': unknown value 'pull', expected one of: unplug, plug, "
                  "sl-low, sl-high, sl-free, ma-low, ma-high, ma-free"},
         BadCable{"EventUnknownKey", "[[channel.event]]\nat_us = 1\naction = \"plug\"\nlevel = 1",
-                 "s.toml:6:1: key 'level': unknown key"}),
+                 "s.toml:6:1: key 'level': unknown key; write level = 1 under [[fault]]"}),
     [](const auto& entry) { return entry.param.name; });
 
 // A chip with one 8-bit slave; channel, CRC and MA at 5 MHz set up by hand.

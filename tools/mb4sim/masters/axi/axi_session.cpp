@@ -10,6 +10,7 @@
 #include "axi_regs_table.hpp"
 #include "biss_axi/device.hpp"
 #include "biss_axi/page.hpp"
+#include "register_table.hpp"
 #include "report/exit_status.hpp"
 #include "sim/masters/axi/axi_model.hpp"
 #include "sim_clock.hpp"
@@ -75,8 +76,8 @@ void check_slave(const sim::Scenario& scenario, const sim::SlaveConfig& slave,
   if (slave.data_bits() != bits) {
     fail_at(scenario, slave.source, "data_bits",
             fmt::format("{}, but {} in the first channel: the master reads all channels with one "
-                        "length",
-                        slave.data_bits(), bits));
+                        "length; write data_bits = {}",
+                        slave.data_bits(), bits, bits));
   }
 }
 
@@ -222,9 +223,8 @@ RegisterMap AxiSession::registers() {
   }
   for (const regs::FieldInfo& field : regs::kFields) {
     if (field.address > last) continue;
-    RegisterMap::Field shown{
-        field.name,  field.alternate == nullptr ? "" : field.alternate, field.address,    field.lsb,
-        field.width, map.words[field.address / sizeof(std::uint32_t)],  field.description};
+    RegisterMap::Field shown =
+        field_of(field, regs::kCodes, map.words[field.address / sizeof(std::uint32_t)]);
     if (!of_channel(field.address)) {
       map.fields.push_back(shown);
       continue;

@@ -215,7 +215,7 @@ SessionFrame ClbSession::read(std::uint64_t number) {
 
 // Reading SPIRXBUF takes a word out. It is shown as it is then.
 RegisterMap ClbSession::registers() {
-  return read_registers(port_, regs::kAddrWatchdog, regs::kFields);
+  return read_registers(port_, regs::kAddrWatchdog, regs::kFields, regs::kCodes);
 }
 
 // By MATCH1 of the MA counter, one less than half a period.

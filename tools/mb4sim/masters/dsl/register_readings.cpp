@@ -225,13 +225,14 @@ std::string RegisterReadings::state() {
 
 // Those of the map are bytes of its words.
 RegisterMap RegisterReadings::registers() {
-  RegisterMap out = read_registers(port_, page::kAddrTimeHigh, page::kFields);
+  RegisterMap out = read_registers(port_, page::kAddrTimeHigh, page::kFields, page::kCodes);
   std::vector<RegisterMap::Field> fields;
   for (const auto& field : map::kFields) {
     const unsigned lane = 8 * (field.address & 3U);
-    fields.push_back({field.name, field.alternate == nullptr ? "" : field.alternate,
-                      word_at(field.address), field.lsb + lane, field.width,
-                      out.words[field.address / sizeof(std::uint32_t)], field.description});
+    fields.push_back(
+        field_of(field, map::kCodes, out.words[field.address / sizeof(std::uint32_t)]));
+    fields.back().address = word_at(field.address);
+    fields.back().lsb += lane;
   }
   out.fields.insert(out.fields.begin(), fields.begin(), fields.end());
   return out;

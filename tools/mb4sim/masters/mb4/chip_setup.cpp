@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "scenario_argument.hpp"
 #include "sim/lines/clocked/clocked_line.hpp"
 
 namespace mb4::tool {
@@ -102,7 +103,7 @@ void require_ic_mb4(const sim::Scenario& scenario) {
 }
 
 sim::Scenario load_chip_scenario(const std::string& path) {
-  sim::Scenario scenario = sim::load_scenario(path);
+  sim::Scenario scenario = open_scenario(path);
   require_ic_mb4(scenario);
   return scenario;
 }

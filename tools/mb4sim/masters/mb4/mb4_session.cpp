@@ -3,6 +3,7 @@
 #include "masters/mb4/mb4_session.hpp"
 
 #include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
@@ -15,6 +16,7 @@
 #include "mb4/position.hpp"
 #include "mb4/scan.hpp"
 #include "mb4_regs_table.hpp"
+#include "register_table.hpp"
 #include "sim/lines/clocked/actuator.hpp"
 #include "sim/lines/clocked/clocked_line.hpp"
 #include "sim/masters/mb4/ma_frequency.hpp"
@@ -188,22 +190,23 @@ std::string Mb4Session::send(const std::string& line) {
 }
 
 // SCDATA1 to 8 and RDATA, eight bytes a line.
-std::string data_text(const Dump& dump) {
-  std::string out =
-      fmt::format("{:<4}  {:<18}  {}\n", "addr", "data", "bytes, lowest address first");
+std::vector<RegisterMap::DataRow> data_rows(const Dump& dump) {
   constexpr std::size_t kBytesInRow = 8;
-  const auto data_row = [&](std::size_t address, const std::string& name) {
-    out += fmt::format("0x{:02X}  {:<18} ", address, name);
-    for (std::size_t i = 0; i < kBytesInRow; ++i) out += fmt::format(" {:02X}", dump[address + i]);
-    out += '\n';
+  std::vector<RegisterMap::DataRow> rows;
+  const auto add = [&](std::size_t address, const std::string& name) {
+    const auto begin = dump.begin() + static_cast<std::ptrdiff_t>(address);
+    const auto end = begin + kBytesInRow;
+    rows.push_back({static_cast<unsigned>(address), name,
+                    fmt::format("{:02X}", fmt::join(begin, end, " ")),
+                    std::all_of(begin, end, [](std::uint8_t byte) { return byte == 0; })});
   };
   for (std::size_t slave = 1; slave <= 8; ++slave) {
-    data_row((slave - 1) * kBytesInRow, fmt::format("SCDATA{}", slave));
+    add((slave - 1) * kBytesInRow, fmt::format("SCDATA{}", slave));
   }
   for (std::size_t i = 0; i < 64; i += kBytesInRow) {
-    data_row(0x80 + i, fmt::format("RDATA{} to {}", i + 1, i + kBytesInRow));
+    add(0x80 + i, fmt::format("RDATA{} to {}", i + 1, i + kBytesInRow));
   }
-  return out + '\n';
+  return rows;
 }
 
 RegisterMap Mb4Session::registers() {
@@ -216,11 +219,11 @@ RegisterMap Mb4Session::registers() {
   std::copy(rx.begin() + 2, rx.end(), dump.begin());
   RegisterMap map;
   map.words.assign(dump.begin(), dump.end());
-  map.data_text = data_text(dump);
+  map.data_rows = data_rows(dump);
+  map.clk_hz = simulator_.scenario().chip.system_hz();
   for (const regs::FieldInfo& field : regs::kFields) {
-    map.fields.push_back({field.name, field.alternate == nullptr ? "" : field.alternate,
-                          field.address, field.lsb, field.width, dump[field.address],
-                          field.description, field.address < kConfiguration});
+    map.fields.push_back(field_of(field, regs::kCodes, dump[field.address]));
+    map.fields.back().data = field.address < kConfiguration;
   }
   return map;
 }

@@ -198,7 +198,7 @@ std::span<const WordColumn> PruSession::columns() const {
 }
 
 RegisterMap PruSession::registers() {
-  return read_registers(port_, regs::kAddrLatchTime, regs::kFields);
+  return read_registers(port_, regs::kAddrLatchTime, regs::kFields, regs::kCodes);
 }
 
 unsigned ma_clocks(std::uint64_t clk_hz, unsigned mhz) {
