@@ -167,7 +167,8 @@ TEST_F(CApiFirmware, InjectedLineEvents_CountFromNow) {
 TEST_F(CApiFirmware, WrongText_NamesLineAndKeyAndInjectsNothing) {
   const std::string good = "[[fault]]\nkind = \"silent\"\nslave = 1\nat_us = 0.0\n";
   EXPECT_EQ(refusal((good + "[[fault]]\nkind = \"silent\"\nslave = 2\nat_us = 0.0\n").c_str()),
-            "inject:7:9: key 'slave': the scenario has no slave 2; it has 1 (in [[fault]])");
+            "inject:7:9: key 'slave': the scenario has no slave 2; it has 1, 5; the one in "
+            "place 2 of the file is slave = 5 (in [[fault]])");
   EXPECT_EQ(refusal("[[channel]]\nnumber = 1\ndelay_ns = 5\n"),
             "inject:3:1: key 'delay_ns': unknown key, known here: [[channel.event]], number (in "
             "[[channel]])");
