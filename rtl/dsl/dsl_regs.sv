@@ -61,6 +61,7 @@ module dsl_regs (
   localparam logic [2:0] LAST_STEP     = 3'd6;
   localparam logic [2:0] LAST_PLACE    = 3'd7;
   localparam logic [5:0] SUMMARY_PLACE = 6'd37;   // in the record
+  localparam logic [2:0] AGES          = 3'd6;    // in the record: places 48 to 55
   localparam logic [7:0] SDK_VERSION   = 8'h10;
 
   // An access.
@@ -96,7 +97,7 @@ module dsl_regs (
   logic               frame_q;           // the record is one of a running frame
   logic               vertical_q;        // ... of the last one in a vertical frame
   logic               summary_q;         // a bit of the record's summary is 1
-  logic               told_q;            // a link has made a record; up to then its bytes read 0
+  logic               told_q;            // a link has made a record
   logic               unused;
 
   // ---- An access --------------------------------------------------------------------------------
@@ -202,6 +203,9 @@ module dsl_regs (
         default:                   register = 8'd0;
       endcase
     end
+    // Before the first link: the position is not certain, and no safe one has come.
+    if (!told_q && row.kind == dsl_map_pkg::STATUS) register = 8'd1;
+    if (!told_q && row.kind == dsl_map_pkg::RECORD && row.value[5:3] == AGES) register = '1;
     if (!here) register = 8'd0;
   end
 

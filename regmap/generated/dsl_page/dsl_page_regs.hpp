@@ -65,7 +65,7 @@ inline constexpr std::uint32_t kConstFrameTimeLo = 0x00000000;
 inline constexpr std::uint32_t kResetFrameTimeHi = 0x00000000;
 inline constexpr std::uint32_t kWmaskFrameTimeHi = 0x00000000;
 inline constexpr std::uint32_t kConstFrameTimeHi = 0x00000000;
-inline constexpr std::uint32_t kResetFrameStatus = 0x00000000;
+inline constexpr std::uint32_t kResetFrameStatus = 0x00000001;
 inline constexpr std::uint32_t kWmaskFrameStatus = 0x00000000;
 inline constexpr std::uint32_t kConstFrameStatus = 0x00000000;
 inline constexpr std::uint32_t kResetSafe1Lo = 0x00000000;
@@ -77,7 +77,7 @@ inline constexpr std::uint32_t kConstSafe1Hi = 0x00000000;
 inline constexpr std::uint32_t kResetSafe1Check = 0x00000000;
 inline constexpr std::uint32_t kWmaskSafe1Check = 0x00000000;
 inline constexpr std::uint32_t kConstSafe1Check = 0x00000000;
-inline constexpr std::uint32_t kResetSafe1Age = 0x00000000;
+inline constexpr std::uint32_t kResetSafe1Age = 0xFFFFFFFF;
 inline constexpr std::uint32_t kWmaskSafe1Age = 0x00000000;
 inline constexpr std::uint32_t kConstSafe1Age = 0x00000000;
 inline constexpr std::uint32_t kResetSafe2Lo = 0x00000000;
@@ -89,7 +89,7 @@ inline constexpr std::uint32_t kConstSafe2Hi = 0x00000000;
 inline constexpr std::uint32_t kResetSafe2Check = 0x00000000;
 inline constexpr std::uint32_t kWmaskSafe2Check = 0x00000000;
 inline constexpr std::uint32_t kConstSafe2Check = 0x00000000;
-inline constexpr std::uint32_t kResetSafe2Age = 0x00000000;
+inline constexpr std::uint32_t kResetSafe2Age = 0xFFFFFFFF;
 inline constexpr std::uint32_t kWmaskSafe2Age = 0x00000000;
 inline constexpr std::uint32_t kConstSafe2Age = 0x00000000;
 inline constexpr std::uint32_t kResetRestarts = 0x00000000;
@@ -231,7 +231,7 @@ using FRAME_VSYNC_SEEN = Field<0x11C, 2, 1, Access::kReadOnly, 0>;
 // As LINK.
 using FRAME_LINKED = Field<0x11C, 1, 1, Access::kReadOnly, 0>;
 // The position is not certain.
-using FRAME_POS_LOST = Field<0x11C, 0, 1, Access::kReadOnly, 0>;
+using FRAME_POS_LOST = Field<0x11C, 0, 1, Access::kReadOnly, 1>;
 // Bits 31 to 0 of the last good safe position 1.
 using SAFE1_LO = Field<0x120, 0, 32, Access::kReadOnly, 0>;
 // Bits 39 to 32.
@@ -245,7 +245,7 @@ using SAFE1_SUMMARY = Field<0x128, 16, 8, Access::kReadOnly, 0>;
 // CRC of the last good one, as it was received.
 using SAFE1_CRC = Field<0x128, 0, 16, Access::kReadOnly, 0>;
 // Frames since it came; all ones: none in this link, or no link.
-using SAFE1_AGE = Field<0x12C, 0, 32, Access::kReadOnly, 0>;
+using SAFE1_AGE = Field<0x12C, 0, 32, Access::kReadOnly, 4294967295>;
 // Bits 31 to 0 of the last good safe position 2, as it was received.
 using SAFE2_LO = Field<0x130, 0, 32, Access::kReadOnly, 0>;
 // Bits 39 to 32.
@@ -259,7 +259,7 @@ using SAFE2_STATUS2 = Field<0x138, 16, 8, Access::kReadOnly, 0>;
 // CRC of the last good one, as it was received.
 using SAFE2_CRC = Field<0x138, 0, 16, Access::kReadOnly, 0>;
 // Frames since it came; all ones: none in this link, or no link.
-using SAFE2_AGE = Field<0x13C, 0, 32, Access::kReadOnly, 0>;
+using SAFE2_AGE = Field<0x13C, 0, 32, Access::kReadOnly, 4294967295>;
 // Words that the strict check of the code alone refused, from the identity on. It wraps.
 using CODE_ILLEGAL = Field<0x140, 16, 16, Access::kReadOnly, 0>;
 // Restarts of the link. It wraps.

@@ -70,7 +70,7 @@ package dsl_page_regs_pkg;
   localparam logic [31:0] RESET_FRAME_TIME_HI = 32'h00000000;
   localparam logic [31:0] WMASK_FRAME_TIME_HI = 32'h00000000;
   localparam logic [31:0] CONST_FRAME_TIME_HI = 32'h00000000;
-  localparam logic [31:0] RESET_FRAME_STATUS = 32'h00000000;
+  localparam logic [31:0] RESET_FRAME_STATUS = 32'h00000001;
   localparam logic [31:0] WMASK_FRAME_STATUS = 32'h00000000;
   localparam logic [31:0] CONST_FRAME_STATUS = 32'h00000000;
   localparam logic [31:0] RESET_SAFE1_LO = 32'h00000000;
@@ -82,7 +82,7 @@ package dsl_page_regs_pkg;
   localparam logic [31:0] RESET_SAFE1_CHECK = 32'h00000000;
   localparam logic [31:0] WMASK_SAFE1_CHECK = 32'h00000000;
   localparam logic [31:0] CONST_SAFE1_CHECK = 32'h00000000;
-  localparam logic [31:0] RESET_SAFE1_AGE = 32'h00000000;
+  localparam logic [31:0] RESET_SAFE1_AGE = 32'hFFFFFFFF;
   localparam logic [31:0] WMASK_SAFE1_AGE = 32'h00000000;
   localparam logic [31:0] CONST_SAFE1_AGE = 32'h00000000;
   localparam logic [31:0] RESET_SAFE2_LO = 32'h00000000;
@@ -94,7 +94,7 @@ package dsl_page_regs_pkg;
   localparam logic [31:0] RESET_SAFE2_CHECK = 32'h00000000;
   localparam logic [31:0] WMASK_SAFE2_CHECK = 32'h00000000;
   localparam logic [31:0] CONST_SAFE2_CHECK = 32'h00000000;
-  localparam logic [31:0] RESET_SAFE2_AGE = 32'h00000000;
+  localparam logic [31:0] RESET_SAFE2_AGE = 32'hFFFFFFFF;
   localparam logic [31:0] WMASK_SAFE2_AGE = 32'h00000000;
   localparam logic [31:0] CONST_SAFE2_AGE = 32'h00000000;
   localparam logic [31:0] RESET_RESTARTS = 32'h00000000;
@@ -312,7 +312,7 @@ package dsl_page_regs_pkg;
   localparam logic [31:0] FRAME_POS_LOST_LSB = 32'd0;
   localparam logic [31:0] FRAME_POS_LOST_W = 32'd1;
   localparam logic [31:0] FRAME_POS_LOST_MASK = 32'h00000001;
-  localparam logic [0:0] FRAME_POS_LOST_RESET = 1'd0;
+  localparam logic [0:0] FRAME_POS_LOST_RESET = 1'd1;
 
   // Bits 31 to 0 of the last good safe position 1.
   localparam logic [11:0] SAFE1_LO_ADDR = 12'h120;
@@ -361,7 +361,7 @@ package dsl_page_regs_pkg;
   localparam logic [31:0] SAFE1_AGE_LSB = 32'd0;
   localparam logic [31:0] SAFE1_AGE_W = 32'd32;
   localparam logic [31:0] SAFE1_AGE_MASK = 32'hFFFFFFFF;
-  localparam logic [31:0] SAFE1_AGE_RESET = 32'd0;
+  localparam logic [31:0] SAFE1_AGE_RESET = 32'd4294967295;
 
   // Bits 31 to 0 of the last good safe position 2, as it was received.
   localparam logic [11:0] SAFE2_LO_ADDR = 12'h130;
@@ -410,7 +410,7 @@ package dsl_page_regs_pkg;
   localparam logic [31:0] SAFE2_AGE_LSB = 32'd0;
   localparam logic [31:0] SAFE2_AGE_W = 32'd32;
   localparam logic [31:0] SAFE2_AGE_MASK = 32'hFFFFFFFF;
-  localparam logic [31:0] SAFE2_AGE_RESET = 32'd0;
+  localparam logic [31:0] SAFE2_AGE_RESET = 32'd4294967295;
 
   // Words that the strict check of the code alone refused, from the identity on. It wraps.
   localparam logic [11:0] CODE_ILLEGAL_ADDR = 12'h140;

@@ -5,6 +5,7 @@
 // that reads and writes all the time. Expected values are the model's, and the encoder's position.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <map>
@@ -223,6 +224,13 @@ class DslCoreBlock : public testing::TestWithParam<bool>, public LinkListener {
     samples = encoder.window(state);
   }
 
+  // The position is not certain, and no safe one has come.
+  static Record before_any_link() {
+    Record r{};
+    r[20] = 1;
+    std::fill(r.begin() + 48, r.begin() + 56, 0xFF);
+    return r;
+  }
   // The record of the frame that the model has judged.
   void take_record() {
     ASSERT_TRUE(pending);
@@ -372,7 +380,7 @@ class DslCoreBlock : public testing::TestWithParam<bool>, public LinkListener {
 
   std::optional<LinkFrame> pending;
   std::uint64_t sampled_position = 0;
-  Record newest{};
+  Record newest = before_any_link();
   bool known = false;
   std::array<std::uint32_t, 2> ages{kNever, kNever};
   std::array<std::optional<Record>, kGroups> copies;
