@@ -26,11 +26,22 @@ class LinkFrames final : public Workload {
     if (!port.read(dsl::page::kAddrStatus, status) || dsl::page::POS_LOST::get(status) != 0) {
       throw std::runtime_error("workload: there is no link");
     }
+    begun_ = done();
   }
 
   void run(sim::Time duration) override { simulator_.advance(duration); }
 
   WorkCount count() const override {
+    WorkCount count = done();
+    count.clocks -= begun_.clocks;
+    count.frames -= begun_.frames;
+    count.time -= begun_.time;
+    return count;
+  }
+
+ private:
+  // Since the begin of the simulation.
+  WorkCount done() const {
     WorkCount count;
     count.clocks = simulator_.clk_cycles();
     count.time = simulator_.now();
@@ -38,8 +49,8 @@ class LinkFrames final : public Workload {
     return count;
   }
 
- private:
   sim::Simulator simulator_;
+  WorkCount begun_;  // when the link was there
 };
 
 constexpr WorkloadInfo kWorkloads[] = {
