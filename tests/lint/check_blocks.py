@@ -45,7 +45,6 @@ INSTEAD = {
     "dsl_judge": "through dsl_line",
     "dsl_learn": "through dsl_receiver",
     "dsl_bridge": "through dsl_bus",
-    "dsl_bus": "through dsl_axil",
     "dsl_map": "through dsl_regs",
     "dsl_program": "through dsl_position",
     "dsl_link": "through dsl_line",
