@@ -150,7 +150,7 @@ def main(root, folder):
     check_refusals(root)
     chip = Path(folder, "chip_for_test.html")
     Path(folder).mkdir(parents=True, exist_ok=True)
-    chip.write_text("<!doctype html><title>chip</title>")
+    chip.write_text('<!doctype html><html lang="en"><title>chip</title></html>')
     result = subprocess.run([root / "tools/site/build.sh", folder, chip], capture_output=True,
                             text=True, check=False)
     if result.returncode == 3 or "tools/setup.sh site" in result.stderr:
@@ -165,6 +165,9 @@ def main(root, folder):
     check_pages_only(root, html, pages)
     if "../chip.html" not in pages[html / "docs/browser.html"].links:
         found.append("docs/browser.html: no link to the chip's page")
+    documents = re.search(r'<html lang="en" data-documents="([^"]+)">', (html / "chip.html").read_text())
+    if documents is None or not (html / documents[1]).is_file():
+        found.append("chip.html: does not name the documents")
     print("\n".join(found) or f"{len(pages)} pages, "
           f"{sum(len(page.links) + len(page.parts) for page in pages.values())} links and pictures: good")
     return 1 if found else 0

@@ -10,6 +10,7 @@ import sys
 import threading
 import time
 from pathlib import Path
+from xml.etree import ElementTree
 
 import openmb4
 import pytest
@@ -72,6 +73,16 @@ class Browser:
 
     def said(self):
         return self.text("said")
+
+    def wrong(self, name):
+        """The message by a field; None without one."""
+        field = self[name]
+        if field.get_attribute("aria-invalid") is None:
+            assert self.run("return $(arguments[0] + '-wrong')?.hidden ?? true", name)
+            return None
+        note = self[field.get_attribute("aria-describedby")]
+        assert note.is_displayed()
+        return note.text
 
     def good(self):
         return int(self.text("good"))
@@ -308,10 +319,32 @@ def test_movement_and_cable(page):
     assert "cable_m = 250" in page.run("return document.getElementById('scenario').textContent")
     before = page["link"].get_attribute("value")
     page.enter("cable", "99999")
-    assert "key 'cable_m'" in page.text("problem")
+    assert page.wrong("cable") == "a number from 0 to 10000; the chip keeps 250"
     assert page["link"].get_attribute("value") == before  # the chip before stays
     page.enter("cable", "10")
-    assert not page["problem"].is_displayed()
+    assert page.wrong("cable") is None
+
+
+def test_a_number_that_cannot_be_used_is_told_by_its_field(page):
+    page.choose("encoder", "ic-mu")
+    page.enter("bits", "20")
+    for name, texts, words in (
+            ("cable", ("", "-1", "10001"), "a number from 0 to 10000; the chip keeps 10"),
+            ("bits", ("", "2", "65", "20.5"), "a whole number from 3 to 64; the chip keeps 20")):
+        good = page[name].get_attribute("value")
+        scenario = page.run("return $('scenario').textContent")
+        for text in texts:
+            page.enter(name, text or Keys.BACKSPACE)
+            assert page.wrong(name) == words, text
+            assert page.run("return $('scenario').textContent") == scenario
+            page.click("step")
+            assert page.text("state") == "ok"  # the chip before goes on
+        page.enter(name, good)
+        assert page.wrong(name) is None
+    # A length that is not asked for is no obstacle.
+    page.enter("bits", "99")
+    page.choose("encoder", "resolute-26")
+    assert "resolute-26" in page.run("return $('scenario').textContent")
 
 
 def test_run_stop_and_pace(page):
@@ -374,9 +407,16 @@ def test_registers_by_field(page):
     page.enter("field-SCDATA2", "0x123456789ABCDEF0")
     assert page["field-SCDATA2"].get_attribute("value") == "0x123456789ABCDEF0"
     page.enter("field-FREQS", "32")
-    assert "32 has more than 5 bits" in page.said()
+    assert page.said() == page.wrong("field-FREQS") == "FREQS: 32 has more than 5 bits"
     page.enter("field-FREQS", "four")
-    assert "this is no number" in page.said()
+    assert page.said() == page.wrong("field-FREQS") == "FREQS: this is no number"
+    assert page["field-FREQS"].get_attribute("value") == "four"  # to be put right
+    page.enter("field-FREQS", "5")
+    assert page.said() == "FREQS is written" and page.wrong("field-FREQS") is None
+    page.enter("field-FREQS", "four")
+    page.enter("field-FREQS", "4")
+    page.enter("field-FREQS", "6", Keys.TAB)
+    assert page.said() == "FREQS is not written: Enter writes it"
     assert page["field-FREQS"].get_attribute("value") == "4"
     # Codes by their names.
     words = "return document.getElementById('field-CFGCH2').closest('label').querySelector('.word').textContent"
@@ -386,8 +426,10 @@ def test_registers_by_field(page):
     page.enter("field-CFGCH2", "3")
     for name in ("AGS", "INSTR", "SVALID1", "BREAK"):
         page.enter(f"field-{name}", "1")
-        assert "does harm; write the whole register" in page.said(), name
+        assert "does harm; write the whole register" in page.wrong(f"field-{name}"), name
+        page[f"field-{name}"].send_keys(Keys.ESCAPE)
         assert page[f"field-{name}"].get_attribute("value") == "0"
+        assert page.wrong(f"field-{name}") is None
     assert not page["field-EOT"].get_attribute("readonly") in (None, "")
     page.enter("field-FREQS", "7", Keys.ESCAPE)
     assert page["field-FREQS"].get_attribute("value") == "4"
@@ -406,13 +448,17 @@ def test_whole_registers(page):
     page.enter("register-name", "0xEB", Keys.TAB)
     page.click("register-read")
     assert page.said() == "VERSION = 0x84"
-    for name, value, words in (("NONSENSE", "1", "no register 'NONSENSE'"),
-                               ("FREQ", "256", "FREQ: this is no byte"),
-                               ("FREQ", "x", "FREQ: this is no byte")):
+    for name, value, field, words in (
+            ("NONSENSE", "1", "register-name", "no register 'NONSENSE'"),
+            ("FREQ", "256", "register-value", "FREQ: this is no byte"),
+            ("FREQ", "x", "register-value", "FREQ: this is no byte")):
         page.enter("register-name", name, Keys.TAB)
         page.enter("register-value", value, Keys.TAB)
         page.click("register-write")
-        assert page.said() == words
+        assert page.said() == page.wrong(field) == words
+    page.enter("register-value", "1", Keys.TAB)
+    page.click("register-read")
+    assert page.wrong("register-name") is None and page.wrong("register-value") is None
     # A whole register: INSTR = 100 (table 45). The write takes simulated time.
     page.enter("register-name", "INSTR", Keys.TAB)
     page.enter("register-value", "0x08", Keys.TAB)
@@ -426,8 +472,11 @@ def test_wrong_bytes_are_refused(page):
     for text, wrong in (("03 GG", "GG"), ("123", "123"), ("", "")):
         page.run("document.getElementById('spi-bytes').value = ''")
         page.enter("spi-bytes", text)
-        assert page.said() == f"SPI: '{wrong}' is no byte; example: 03 EA 00 00"
+        assert page.said() == page.wrong("spi-bytes") == (
+            f"SPI: '{wrong}' is no byte; example: 03 EA 00 00")
     assert page.run("return chip.timeNs") == clock
+    page.enter("spi-bytes", "03 EA 00")
+    assert page.wrong("spi-bytes") is None
 
 
 def test_links(page, driver):
@@ -448,10 +497,167 @@ def test_links(page, driver):
                             ("#ma=3", "link: ma '3' is not possible"),
                             ("#bits=99", "link: bits '99' is not possible"),
                             ("#cable=far", "link: cable 'far' is not possible"),
+                            ("#pace=2", "link: pace '2' is not possible"),
+                            ("#fault=none", "link: fault 'none' is not possible"),
                             ("#cable=-3", "cable_m")):
         page.open(fragment)
         assert words in page.text("problem"), fragment
         assert page.good() == 1  # the usual set-up runs
+
+
+def test_a_link_keeps_pace_and_fault(page, driver):
+    clock = page.run("return chip.timeNs")
+    page.choose("fault-kind", "unplug")
+    page.choose("pace", "8")
+    assert page.run("return chip.timeNs") == clock  # the same chip
+    link = page["link"].get_attribute("value")
+    assert link == driver.current_url and link.endswith("&pace=8&fault=unplug")
+    page.enter("cable", "20")  # a new set-up leaves both
+    page.open("#" + page["link"].get_attribute("value").split("#")[1])
+    assert page["cable"].get_attribute("value") == "20"
+    assert page["pace"].get_attribute("value") == "8"
+    assert page["fault-kind"].get_attribute("value") == "unplug"
+    page.choose("pace", "0")
+    page.click("fault")
+    page.click("step")
+    assert page.text("bad") == "1"
+    page.open("#encoder=lma10")  # a link without them
+    assert page["pace"].get_attribute("value") == "0"
+    assert page["fault-kind"].get_attribute("value") == "silent"
+
+
+def test_a_silent_line_is_thin_with_its_time(page):
+    page.run("$('fault-kind').value = 'silent'; $('fault').click(); $('step').click()")
+    assert page.text("state") != "ok"
+    edges = page.run("return diagram.picture.edges")
+    ma, sl = ([edge for edge in edges if edge["place"] == place] for place in (0, 2))
+    periods = len(ma) // 2
+    assert periods > 1000
+    # MA is 10 MHz: each period takes 100 ns, the last one ends with its rising edge.
+    ma_us = periods / 10 - 0.05
+    low_us = max(b["time"] - a["time"] for a, b in zip(sl, sl[1:])) / 1000
+    texts = [text.text for text in svg_of(page).iter("{http://www.w3.org/2000/svg}text")]
+    assert f"{periods} periods in {round(ma_us, 2):g} µs" in texts
+    assert f"0 for {round(low_us, 2):g} µs" in texts
+    assert not any("for" in text for text in texts if text.startswith("1"))
+    # Ink in the picture: a column of MA has two rails, one of SL has one line.
+    columns = page.run("""
+        const {width} = $("diagram");
+        const {data} = $("diagram").getContext("2d").getImageData(0, 0, width, 140);
+        return [30, 98].map((top) => {
+          const counts = [];
+          for (let x = width >> 3; x < width >> 2; x += 5) {
+            let ink = 0;
+            for (let y = top; y < top + 38; ++y) ink += data[4 * (y * width + x) + 3] > 60;
+            counts.push(ink);
+          }
+          return counts.sort((a, b) => a - b)[counts.length >> 1];
+        });""")
+    assert columns[0] <= 4 and columns[1] <= 2, columns
+    page.click("step")
+    assert page.text("state") == "ok"
+    assert not any(" for " in text.text or " periods " in text.text
+                   for text in svg_of(page).iter("{http://www.w3.org/2000/svg}text"))
+
+
+def svg_of(page):
+    return ElementTree.fromstring(page.run("return diagram.svg()"))
+
+
+def test_dial_shows_the_part_of_all_positions(page):
+    page.choose("movement", "still")  # at a third of 2 ** 26
+    assert page.text("dial-text") == "33.33 % of 2^26"
+    assert page["hand"].get_attribute("transform") == "rotate(120.000)"
+    page.choose("movement", "sine")
+    page.click("step")
+    position = int(page.frames()[-1][3])
+    assert page.text("dial-text") == f"{position / 2 ** 26 * 100:.2f} % of 2^26"
+    page.run("$('fault').click(); $('step').click()")
+    assert page.text("dial-text") == "no position" and page["dial"].get_attribute("class") == "old"
+    # All 64 bits are positions of a number that JavaScript cannot hold.
+    page.open("#encoder=ic-mu&bits=64&movement=still")
+    assert page.text("dial-text").startswith("33.33 % of 2^")
+
+
+def test_frame_as_files(page, driver, tmp_path):
+    driver.execute_cdp_cmd("Browser.setDownloadBehavior",
+                           {"behavior": "allow", "downloadPath": str(tmp_path)})
+
+    def saved(button, name):
+        page.click(button)
+        end = time.monotonic() + ENOUGH_S
+        while not (tmp_path / name).exists() or (tmp_path / name).stat().st_size == 0:
+            assert time.monotonic() < end, name
+            time.sleep(0.02)
+        return (tmp_path / name).read_text(encoding="utf-8")
+
+    for _ in range(3):
+        page.click("step")
+    raw, position = page.frames()[-1][2:4]
+    texts = [text.text for text in ElementTree.fromstring(saved("save-svg", "frame.svg")).iter(
+        "{http://www.w3.org/2000/svg}text")]
+    assert texts[:3] == ["MA", "SL", "SLO"] and f"raw word {raw}" in texts
+
+    # Every edge of the read, at its time in simulated ps.
+    text = saved("save-vcd", "frame.vcd")
+    body = text.split("$dumpvars")[1].split("$end")[1]
+    now, edges = None, []
+    for line in body.split():
+        if line[0] == "#":
+            now = int(line[1:])
+        else:
+            edges.append([now, {"!": 0, "#": 2, "$": 3}[line[1]], int(line[0])])
+    assert edges == [[round(edge["time"] * 1000), edge["place"], edge["level"]]
+                     for edge in page.run("return diagram.picture.edges") if edge["place"] in (0, 2, 3)]
+    # A simulated encoder that plays the file sends the same word.
+    with openmb4.Simulator(f"""
+[chip]
+f_clk_hz = 20000000
+[host]
+sclk_hz = 10000000
+ma_hz = 10000000
+[[channel]]
+number = 1
+[[channel.slave]]
+protocol = "replay"
+capture = "{tmp_path / 'frame.vcd'}"
+ma = "MA"
+sl = "SL"
+data_bits = 28
+flag_bits = 2
+crc = 0x43
+""") as chip:
+        chip.driver.configure()
+        reading = chip.driver.read_all(1)[0]["frame"]["reading"][0]
+        assert int(reading["position"]) == int(position)
+
+
+def test_frame_and_positions_are_on_the_first_screen(page):
+    page.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {
+        "width": 1280, "height": 900, "deviceScaleFactor": 1, "mobile": False})
+    try:
+        page.open()
+        for name in ("encoder", "link", "run", "step", "fault", "position", "diagram", "plot", "dial"):
+            box = page.run("const {top, bottom, right} = $(arguments[0]).getBoundingClientRect();"
+                           "return [top, bottom, right]", name)
+            assert 0 <= box[0] < box[1] <= 900 and box[2] <= 1280, name
+    finally:
+        page.driver.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
+
+
+def test_documents(page):
+    page.click("documents")
+    assert page["help"].is_displayed()
+    text = page.text("help")
+    for words in ("encoder (the presets of mb4sim presets)", "SPI by hand", "Limits"):
+        assert words in text
+    assert "](" not in text and "`" not in text and "|" not in text
+    assert not page["all-documents"].is_displayed()  # only on the site of the documents
+    count = page.good()
+    page.driver.switch_to.active_element.send_keys("s")
+    assert page.good() == count
+    page.driver.switch_to.active_element.send_keys(Keys.ESCAPE)
+    assert not page["help"].is_displayed()
 
 
 def test_keyboard(page):
@@ -475,7 +681,7 @@ def test_keyboard(page):
         reached.add(page.run("return document.activeElement.id || document.activeElement.tagName"))
     assert reached >= {"encoder", "movement", "cable", "frequency", "copy", "run", "step", "pace",
                        "fault", "fault-kind", "SUMMARY", "register-name", "register-write",
-                       "register-read", "spi-bytes"}
+                       "register-read", "spi-bytes", "documents", "save-svg", "save-vcd"}
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
@@ -489,6 +695,11 @@ def test_nothing_is_cut(page, width, scheme):
         page.open()
         page.run("document.querySelectorAll('details').forEach(one => one.open = true)")
         page.wait("document.getElementById('field-RDATA64')?.dataset.shown")
+        page.enter("cable", "99999", Keys.TAB)
+        page.enter("spi-bytes", "GG")
+        page.enter("register-name", "NONSENSE")
+        page.enter("field-FREQS", "four")
+        assert len(page.driver.find_elements("css selector", ".wrong:not([hidden])")) == 4
         assert page.run("return document.documentElement.scrollWidth") <= width
         outside = page.run(
             "return [...document.querySelectorAll('button, input, select, canvas')].filter(one =>"

@@ -33,6 +33,8 @@ rm -rf "$folder/html"
 PYTHONDONTWRITEBYTECODE=1 "$folder/venv/bin/sphinx-build" --quiet --fail-on-warning --keep-going \
   -c "$here" -d "$folder/doctrees" "$folder/source" "$folder/html"
 [ ! -d "$folder/text" ] || cp -r "$folder/text" "$folder/html/files"
-[ -z "$chip" ] || cp "$chip" "$folder/html/chip.html"
+# The chip's page shows a link to the documents where its root element names them.
+[ -z "$chip" ] || sed 's|<html lang="en">|<html lang="en" data-documents="docs/README.html">|' "$chip" \
+  >"$folder/html/chip.html"
 pages=$(find "$folder/html" -name '*.html' | wc -l)
 echo "$folder/html: $pages pages, $(du -sk "$folder/html" | cut -f1) kB"

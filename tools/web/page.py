@@ -6,13 +6,16 @@ UPLOT is the folder of npm's package uplot."""
 
 import base64
 import gzip
+import html
 import json
 import re
 import sys
 from pathlib import Path
 
 HERE = Path(__file__).parent
-REGISTERS = HERE.parent.parent / "regmap" / "generated" / "mb4"
+ROOT = HERE.parent.parent
+REGISTERS = ROOT / "regmap" / "generated" / "mb4"
+DOCUMENT = ROOT / "docs" / "browser.md"
 
 
 def addresses() -> dict:
@@ -30,6 +33,27 @@ def addresses() -> dict:
     return found
 
 
+def help_text() -> str:
+    """The tables and lists of docs/browser.md from "What can be done" on, for the page itself."""
+    text = DOCUMENT.read_text(encoding="utf-8").partition("## What can be done\n")[2]
+    found = []
+    for block in re.split(r"\n\n+", text.strip()):
+        block = html.escape(re.sub(r"\[([^]]*)\]\([^)]*\)", r"\1", block), quote=False)
+        block = re.sub(r"`([^`]*)`", r"<code>\1</code>", block)
+        if block.startswith("|"):
+            rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in block.splitlines()[2:]]
+            cells = ("".join(f"<td>{cell}</td>" for cell in row) for row in rows)
+            found.append("<table>" + "".join(f"<tr>{row}</tr>" for row in cells) + "</table>")
+        elif block.startswith("* "):
+            found.append("<ul>" + "".join(f"<li>{item}</li>" for item in re.split(r"\n?^\* ", block, flags=re.M)[1:])
+                         + "</ul>")
+        elif block.startswith("## "):
+            found.append(f"<h3>{block[3:]}</h3>")
+        else:
+            found.append(f"<p>{block}</p>")
+    return "\n".join(found)
+
+
 def main() -> None:
     module, wasm, uplot, output = map(Path, sys.argv[1:])
     licence = (uplot / "LICENSE").read_text(encoding="utf-8").strip()
@@ -38,13 +62,14 @@ def main() -> None:
         "uplot.css": (uplot / "dist" / "uPlot.min.css").read_text(encoding="utf-8"),
         "uplot.js": f"/*! uPlot\n{licence}\n*/\n"
                     + (uplot / "dist" / "uPlot.iife.min.js").read_text(encoding="utf-8"),
+        "help": help_text(),
         "openmb4.js": module.read_text(encoding="utf-8"),
         "openmb4.wasm": base64.b64encode(gzip.compress(wasm.read_bytes(), 9, mtime=0)).decode(),
         "registers": json.dumps({kind: table[kind] for kind in ("fields", "alternate_fields")},
                                 separators=(",", ":")),
         "addresses": json.dumps(addresses(), separators=(",", ":")),
     }
-    for name in ("style.css", "chip.js", "registers.js", "diagram.js", "page.js"):
+    for name in ("style.css", "chip.js", "fields.js", "registers.js", "diagram.js", "files.js", "page.js"):
         parts[name] = (HERE / "page" / name).read_text(encoding="utf-8")
     for name, text in parts.items():
         if name != "openmb4.wasm" and "</script" in text:

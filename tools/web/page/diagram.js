@@ -16,6 +16,73 @@ function niceStep(span, places) {
   return [1, 2, 5, 10].map((factor) => factor * power).find((step) => step >= rough);
 }
 
+const MIN_EDGE_PX = 1.5, MIN_DENSE_EDGES = 8;  // edges closer than this are not drawn one by one
+
+// A row of a picture in parts: [{from, to, level}], and {from, to, edges} where edges are closer
+// than `minGap` ns, with the number of these edges.
+function stretches(picture, place, minGap) {
+  const inside = (edge) => edge.place === place && edge.time <= picture.to;
+  const edges = picture.edges.filter((edge) => inside(edge) && edge.time >= picture.from);
+  let level = picture.edges.findLast((edge) => inside(edge) && edge.time < picture.from)?.level ??
+    picture.before[place];
+  const found = [];
+  let at = picture.from;
+  for (let i = 0; i < edges.length;) {
+    let last = i;
+    while (last + 1 < edges.length && edges[last + 1].time - edges[last].time < minGap) ++last;
+    const dense = last - i + 1 >= MIN_DENSE_EDGES;
+    if (!dense) last = i;
+    found.push({from: at, to: edges[i].time, level});
+    if (dense) found.push({from: edges[i].time, to: edges[last].time, edges: last - i + 1});
+    at = edges[last].time;
+    level = edges[last].level;
+    i = last + 1;
+  }
+  found.push({from: at, to: picture.to, level});
+  return found;
+}
+
+// A drawing as SVG, with those calls of a canvas that Diagram.paint() makes.
+class SvgContext {
+  constructor(width, height, measure) {
+    Object.assign(this, {width, height, measure, parts: [], path: "", textAlign: "start"});
+  }
+
+  measureText(text) {
+    this.measure.font = this.font;
+    return this.measure.measureText(text);
+  }
+
+  static number(value) { return String(+value.toFixed(2)); }
+
+  beginPath() { this.path = ""; }
+  moveTo(x, y) { this.path += `M${SvgContext.number(x)} ${SvgContext.number(y)}`; }
+  lineTo(x, y) { this.path += `L${SvgContext.number(x)} ${SvgContext.number(y)}`; }
+
+  stroke() {
+    this.parts.push(`<path d="${this.path}" fill="none" stroke="${this.strokeStyle}" ` +
+                    `stroke-width="${this.lineWidth}" stroke-linejoin="round"/>`);
+  }
+
+  fillRect(...box) {
+    const [x, y, width, height] = box.map(SvgContext.number);
+    this.parts.push(`<rect x="${x}" y="${y}" width="${width}" height="${height}" fill="${this.fillStyle}"/>`);
+  }
+
+  fillText(text, x, y) {
+    const anchor = this.textAlign === "center" ? "middle" : "start";
+    const safe = text.replace(/[&<>]/g, (letter) => `&#${letter.charCodeAt(0)};`);
+    this.parts.push(`<text x="${SvgContext.number(x)}" y="${SvgContext.number(y)}" fill="${this.fillStyle}" ` +
+                    `font-size="${parseInt(this.font)}" text-anchor="${anchor}">${safe}</text>`);
+  }
+
+  toString() {
+    return `<svg xmlns="http://www.w3.org/2000/svg" width="${this.width}" height="${this.height}" ` +
+      `viewBox="0 0 ${this.width} ${this.height}" font-family="system-ui, sans-serif" ` +
+      `dominant-baseline="central">\n${this.parts.join("\n")}\n</svg>\n`;
+  }
+}
+
 class Diagram {
   constructor(canvas) {
     this.canvas = canvas;
@@ -32,16 +99,34 @@ class Diagram {
     this.draw();
   }
 
+  get width() {
+    const style = getComputedStyle(this.canvas.parentElement);
+    return this.canvas.parentElement.clientWidth - parseFloat(style.paddingLeft) - parseFloat(style.paddingRight);
+  }
+
   draw() {
-    const {canvas, picture} = this;
-    const width = canvas.parentElement.clientWidth;
+    const {canvas, width} = this;
     const scale = devicePixelRatio || 1;
     canvas.width = Math.round(width * scale);
     canvas.height = Math.round(HEIGHT * scale);
     canvas.style.height = `${HEIGHT}px`;
     const context = canvas.getContext("2d");
     context.scale(scale, scale);
-    const style = getComputedStyle(canvas);
+    this.paint(context, width, this.until);
+  }
+
+  // The whole picture, as SVG.
+  svg() {
+    const context = new SvgContext(Math.round(this.width), HEIGHT, this.canvas.getContext("2d"));
+    context.fillStyle = getComputedStyle(this.canvas).getPropertyValue("--card").trim();
+    context.fillRect(0, 0, context.width, HEIGHT);
+    this.paint(context, context.width, Infinity);
+    return String(context);
+  }
+
+  paint(context, width, until) {
+    const {picture} = this;
+    const style = getComputedStyle(this.canvas);
     const colour = (name) => style.getPropertyValue(name).trim();
     context.font = "13px system-ui, sans-serif";
     context.textBaseline = "middle";
@@ -50,7 +135,7 @@ class Diagram {
     if (picture === null) return;
     const right = width - 8;
     const x = (time) => LEFT + (time - picture.from) / (picture.to - picture.from) * (right - LEFT);
-    const end = Math.min(picture.to, this.until);
+    const end = Math.min(picture.to, until);
 
     const step = niceStep(picture.to - picture.from, (right - LEFT) / 70);
     context.textAlign = "center";
@@ -64,26 +149,11 @@ class Diagram {
       context.fillText(`${+(at / 1000).toFixed(3)}${last ? " µs" : ""}`, Math.min(px, right - 18), BOTTOM + 14);
     }
 
-    context.lineWidth = 1.5;
     context.lineJoin = "round";
-    ROWS.forEach((row, i) => {
-      const y = (level) => row.y + (level ? 0 : SWING);
-      let level = picture.before[row.place];
-      context.strokeStyle = colour(`--row${i}`);
-      context.beginPath();
-      context.moveTo(LEFT, y(level));
-      for (const edge of picture.edges) {
-        if (edge.place !== row.place || edge.time > end) continue;
-        if (edge.time >= picture.from) {
-          context.lineTo(x(edge.time), y(level));
-          context.lineTo(x(edge.time), y(edge.level));
-        }
-        level = edge.level;
-        if (edge.time < picture.from) context.moveTo(LEFT, y(level));
-      }
-      context.lineTo(x(end), y(level));
-      context.stroke();
-    });
+    const minGap = (picture.to - picture.from) / (right - LEFT) * MIN_EDGE_PX;
+    ROWS.forEach((row, i) => this.paintRow(context, row, {
+      parts: stretches(picture, row.place, minGap), x, end, line: colour(`--row${i}`),
+      card: colour("--card"), quiet: colour("--quiet")}));
 
     context.font = "12px system-ui, sans-serif";
     for (const {from, to, text, short} of picture.brackets) {
@@ -105,15 +175,65 @@ class Diagram {
         context.fillText(said, (left + x(to)) / 2, y - 9);
       }
     }
-    if (this.until < picture.to) {
+    if (until < picture.to) {
       context.fillStyle = colour("--accent");
       context.fillRect(x(end), TOP, 2, BOTTOM - TOP);
     }
     context.textAlign = "start";
-    if (this.until >= picture.to) {
+    if (until >= picture.to) {
       context.fillStyle = colour(picture.good ? "--text" : "--bad");
       context.fillText(picture.title, LEFT, 10);
     }
+  }
+
+  // One line. Where edges are too close, two thin rails and the number of periods; a line that keeps
+  // its level through most of a frame without a word is thin, with its time.
+  paintRow(context, row, {parts, x, end, line, card, quiet}) {
+    const {picture} = this;
+    const y = (level) => row.y + (level ? 0 : SWING);
+    const texts = [];
+    let before = null;  // the level in front
+    for (const part of parts) {
+      if (part.from > end) break;
+      const left = x(part.from), stop = x(Math.min(part.to, end));
+      const dense = "edges" in part;
+      // A part that the picture cuts off counts from the start of the frame to its end.
+      const ns = (part.to < picture.to ? part.to : picture.seen) -
+        (part.from > picture.from ? part.from : picture.zero);
+      const silent = !dense && !picture.good && ns > (picture.seen - picture.zero) / 2;
+      context.strokeStyle = silent ? quiet : line;
+      context.lineWidth = dense || silent ? 1 : 1.5;
+      context.beginPath();
+      for (const level of dense ? [0, 1] : [part.level]) {
+        if (!dense && before !== null && before !== level) {
+          context.moveTo(left, y(before));
+          context.lineTo(left, y(level));
+        } else {
+          context.moveTo(left, y(level));
+        }
+        context.lineTo(stop, y(level));
+      }
+      if (dense) {
+        context.moveTo(left, y(0));
+        context.lineTo(left, y(1));
+      }
+      context.stroke();
+      before = dense ? null : part.level;
+      if (part.to > end || !(dense || silent)) continue;
+      const time = `${+(ns / 1000).toFixed(2)} µs`;
+      texts.push({text: dense ? `${Math.floor(part.edges / 2)} periods in ${time}` : `${part.level} for ${time}`,
+                  middle: (left + stop) / 2, room: stop - left});
+    }
+    context.font = "12px system-ui, sans-serif";
+    for (const {text, middle, room} of texts) {
+      const wide = context.measureText(text).width + 8;
+      if (wide > room) continue;
+      context.fillStyle = card;
+      context.fillRect(middle - wide / 2, row.y + SWING / 2 - 8, wide, 16);
+      context.fillStyle = line;
+      context.fillText(text, middle, row.y + SWING / 2);
+    }
+    context.font = "13px system-ui, sans-serif";
   }
 }
 

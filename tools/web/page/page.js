@@ -7,6 +7,7 @@
 const CLK_HZ = 20_000_000, SCLK_HZ = 10_000_000, NS_PER_M = 5.3;
 const MAX_POINTS = 1000, TABLE_ROWS = 8, LOG_LINES = 50;
 const BUDGET_MS = 12, REFRESH_MS = 250;
+const NUMBERS = ["bits", "cable"];  // fields of the set-up that hold a number
 const TITLES = {"biss-c": "BiSS C", "biss-b": "BiSS B", ssi: "SSI"};
 
 const $ = (id) => document.getElementById(id);
@@ -74,7 +75,12 @@ function least(value) {
 
 function readControls() {
   return {encoder: $("encoder").value, bits: Number($("bits").value), movement: $("movement").value,
-          cable: Number($("cable").value), ma: Number($("frequency").value)};
+          cable: Number($("cable").value), ma: Number($("frequency").value), ...readChoices()};
+}
+
+// What a link keeps besides the set-up of the chip.
+function readChoices() {
+  return {pace: Number($("pace").value), fault: $("fault-kind").value};
 }
 
 function showControls(setup) {
@@ -83,6 +89,27 @@ function showControls(setup) {
   $("movement").value = setup.movement;
   $("cable").value = setup.cable;
   $("frequency").value = setup.ma;
+  $("pace").value = setup.pace;
+  $("fault-kind").value = setup.fault;
+  for (const name of NUMBERS) mark($(name), "");
+}
+
+// Marks the numbers that cannot be used. Returns whether there are none.
+function numbersAreGood(wanted) {
+  let good = true;
+  for (const name of NUMBERS) {
+    const asked = name !== "bits" || presets.get(wanted.encoder).data_bits === 0;
+    const wrong = asked ? wrongNumber($(name)) : "";
+    mark($(name), wrong && `${wrong}; the chip keeps ${setup[name]}`);
+    good &&= wrong === "";
+  }
+  return good;
+}
+
+// The address and the field with the link name the open chip and what is chosen now.
+function showLink() {
+  history.replaceState(null, "", fragment({...setup, ...readChoices()}));
+  $("link").value = location.href;
 }
 
 function fragment(setup) {
@@ -102,6 +129,8 @@ function fromFragment(text, otherwise) {
       ma: () => [...$("frequency").options].some((option) => option.value === value),
       bits: () => /^[0-9]+$/.test(value) && Number(value) >= 3 && Number(value) <= 64,
       cable: () => value.trim() !== "" && Number.isFinite(Number(value)),
+      pace: () => [...$("pace").options].some((option) => option.value === value),
+      fault: () => [...$("fault-kind").options].some((option) => option.value === value),
     };
     if (!known[key]()) throw new Error(`link: ${key} '${value}' is not possible`);
     found[key] = typeof otherwise[key] === "number" ? Number(value) : value;
@@ -126,8 +155,7 @@ function open(wanted) {
   lead = null;
   $("scenario").textContent = text;
   $("bits-label").hidden = presets.get(setup.encoder).data_bits !== 0;
-  history.replaceState(null, "", fragment(setup));
-  $("link").value = location.href;
+  showLink();
   $("frames").replaceChildren();
   $("spi-log").textContent = "";
   $("rate").textContent = "–";
@@ -169,7 +197,7 @@ function readFrame() {
   const [word] = row.slaves;
   const good = row.text === "" && word.text === "";
   const picture = {
-    edges, before, good, zero: frame.start_ns, from: frame.start_ns - margin, to: seen + 2 * margin,
+    edges, before, good, seen, zero: frame.start_ns, from: frame.start_ns - margin, to: seen + 2 * margin,
     brackets: brackets(edges, frame, encoder, encoder.data_bits, roundTrip),
     title: good ? `raw word ${hex(BigInt(word.raw), Math.ceil(encoder.data_bits / 4))}` : `no word: ${word.text || row.text}`};
   return {row, word, good, picture};
@@ -182,6 +210,7 @@ function publish({row, word, good}) {
   $("state").classList.toggle("bad", !good);
   $("good").textContent = counts.good;
   $("bad").textContent = counts.bad;
+  showDial(good ? BigInt(word.position) : null);
   const cells = [(row.time_ns / 1000).toFixed(3), word.slave,
                  ...(good ? [hex(BigInt(word.raw), Math.ceil(encoderOf(setup).data_bits / 4)), word.position,
                              word.error ? 0 : 1, word.warning ? 0 : 1, hex(word.crc, 2), "ok"]
@@ -197,6 +226,20 @@ function publish({row, word, good}) {
   for (const array of Object.values(points)) {
     if (array.length > MAX_POINTS) array.shift();
   }
+}
+
+// The position as a part of all positions; null: none, the hand stays.
+function showDial(position) {
+  const encoder = encoderOf(setup);
+  const bits = BigInt(encoder.data_bits - encoder.flag_bits);
+  $("dial").classList.toggle("old", position === null);
+  if (position === null) {
+    $("dial-text").textContent = "no position";
+    return;
+  }
+  const turn = Number((position << 20n) >> bits) / 2 ** 20;
+  $("hand").setAttribute("transform", `rotate(${(turn * 360).toFixed(3)})`);
+  $("dial-text").textContent = `${(turn * 100).toFixed(2)} % of 2^${bits}`;
 }
 
 // Shows a frame at once.
@@ -365,23 +408,28 @@ const bytesText = (bytes) =>
 function sendBytes(text) {
   const words = text.trim().split(/\s+/);
   const wrong = words.find((word) => !/^(0x)?[0-9a-f]{1,2}$/i.test(word));
-  if (wrong !== undefined) throw new Error(`SPI: '${wrong}' is no byte; example: 03 EA 00 00`);
+  if (wrong !== undefined) {
+    throw new FieldError($("spi-bytes"), `SPI: '${wrong}' is no byte; example: 03 EA 00 00`);
+  }
   const sent = words.map((word) => parseInt(word, 16));
   const answer = chip.spi(sent);
   log(`> ${bytesText(sent)}\n< ${bytesText(answer)}`);
 }
 
-// A handler of events: `action` takes effect between two frames, then the page follows.
-function act(action) {
+// A handler of events: `action` uses these fields and takes effect between two frames, then the page
+// follows.
+function act(fields, action) {
   return (event) => {
     event?.preventDefault();
     if (!chip) return;
     say("");
+    for (const name of fields) mark($(name), "");
     try {
       action();
       if (!running) afterStep();
     } catch (error) {
       say(error.message, true);
+      if (error instanceof FieldError) mark(error.input, error.message);
     }
   };
 }
@@ -390,7 +438,8 @@ function listen() {
   $("setup").addEventListener("change", (event) => {
     if (event.target.id === "link") return;
     const wanted = readControls();
-    if (!open(wanted)) $("link").value = location.href;
+    $("bits-label").hidden = presets.get(wanted.encoder).data_bits !== 0;
+    if (!numbersAreGood(wanted) || !open(wanted)) $("link").value = location.href;
   });
   $("setup").addEventListener("submit", (event) => event.preventDefault());
   addEventListener("hashchange", () => openLink());
@@ -406,20 +455,32 @@ function listen() {
   $("run").addEventListener("click", () => setRunning(!running));
   $("step").addEventListener("click", step);
   $("fault").addEventListener("click", fault);
-  $("spi").addEventListener("submit", act(() => sendBytes($("spi-bytes").value)));
-  $("register").addEventListener("submit", act(() => {
-    const address = registers.address($("register-name").value);
-    registers.write(address, parseNumber($("register-value").value));
+  for (const name of ["pace", "fault-kind"]) $(name).addEventListener("change", showLink);
+  $("save-svg").addEventListener("click", () => save("frame.svg", "image/svg+xml", diagram.svg()));
+  $("save-vcd").addEventListener("click", () => save("frame.vcd", "text/plain", vcdOf(diagram.picture)));
+  $("documents").addEventListener("click", () => $("help").showModal());
+  $("spi").addEventListener("submit", act(["spi-bytes"], () => sendBytes($("spi-bytes").value)));
+  const inField = (name, action) => {
+    try {
+      return action($(name).value);
+    } catch (error) {
+      throw new FieldError($(name), error.message);
+    }
+  };
+  const chosen = () => inField("register-name", (text) => registers.address(text));
+  $("register").addEventListener("submit", act(["register-name", "register-value"], () => {
+    const address = chosen();
+    inField("register-value", (text) => registers.write(address, parseNumber(text)));
     say(`${registers.names[address] ?? hex(address, 2)} is written`);
   }));
-  $("register-read").addEventListener("click", act(() => {
-    const address = registers.address($("register-name").value);
+  $("register-read").addEventListener("click", act(["register-name", "register-value"], () => {
+    const address = chosen();
     const [value] = registers.read(address);
     $("register-value").value = hex(value, 2);
     say(`${registers.names[address] ?? hex(address, 2)} = ${hex(value, 2)}`);
   }));
   addEventListener("keydown", (event) => {
-    const typing = event.target.matches("input, select, textarea");
+    const typing = event.target.matches("input, select, textarea") || $("help").open;
     if (typing || event.ctrlKey || event.altKey || event.metaKey) return;
     const button = {r: "run", s: "step", f: "fault"}[event.key];
     if (button) $(button).click();
@@ -432,7 +493,7 @@ function makePlot() {
   const axis = {stroke: colour("--text"), grid: {stroke: colour("--faint"), width: 1},
                 ticks: {stroke: colour("--faint"), width: 1}};
   const short = new Intl.NumberFormat("en", {notation: "compact", maximumSignificantDigits: 5});
-  const size = () => ({width: $("plot").clientWidth, height: 240});
+  const size = () => ({width: $("plot").clientWidth, height: 220});
   plot = new uPlot({
     ...size(),
     scales: {x: {time: false}},
@@ -447,7 +508,8 @@ function makePlot() {
 }
 
 function openLink() {
-  const usual = {encoder: "resolute-26", bits: 26, movement: "sine", cable: 10, ma: 10_000_000};
+  const usual = {encoder: "resolute-26", bits: 26, movement: "sine", cable: 10, ma: 10_000_000,
+                 pace: 0, fault: "silent"};
   let wanted = usual, wrong = "";
   try {
     wanted = fromFragment(location.hash, usual);
@@ -490,9 +552,11 @@ async function begin() {
   diagram = new Diagram($("diagram"));
   makePlot();
   $("version").textContent = chip.version();
+  const {documents} = document.documentElement.dataset;
+  if (documents) Object.assign($("all-documents"), {href: documents, hidden: false});
   listen();
   openLink();
-  for (const button of ["run", "step", "fault"]) $(button).disabled = false;
+  for (const button of ["run", "step", "fault", "save-svg", "save-vcd"]) $(button).disabled = false;
 }
 
 begin();

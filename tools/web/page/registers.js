@@ -161,8 +161,11 @@ class RegisterView {
         try {
           this.registers.modify(field.name, Registers.parse(field, input.value));
           this.tell(`${field.name} is written`, false);
+          mark(input, "");
         } catch (error) {
           this.tell(error.message, true);
+          mark(input, error.message);
+          return;
         }
         input.dataset.shown = "";
         this.refresh(true);
@@ -173,9 +176,16 @@ class RegisterView {
           change();
         } else if (event.key === "Escape") {
           input.value = input.dataset.shown;
+          mark(input, "");
         }
       });
-      input.addEventListener("blur", () => { input.value = input.dataset.shown; });
+      input.addEventListener("blur", () => {
+        if (input.value !== input.dataset.shown && !input.hasAttribute("aria-invalid")) {
+          this.tell(`${field.name} is not written: Enter writes it`, true);
+        }
+        input.value = input.dataset.shown;
+        mark(input, "");
+      });
       label.append(input);
       const word = Object.assign(document.createElement("span"), {className: "hint word"});
       if (field.codes.size > 0) {
