@@ -411,6 +411,8 @@ def test_registers_by_field(page):
     page.enter("field-FREQS", "four")
     assert page.said() == page.wrong("field-FREQS") == "FREQS: this is no number"
     assert page["field-FREQS"].get_attribute("value") == "four"  # to be put right
+    page.enter("field-FREQS", "4")  # what the chip has
+    assert page.wrong("field-FREQS") is None
     page.enter("field-FREQS", "5")
     assert page.said() == "FREQS is written" and page.wrong("field-FREQS") is None
     page.enter("field-FREQS", "four")

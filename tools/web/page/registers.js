@@ -157,11 +157,11 @@ class RegisterView {
                             readOnly: field.access === "ro"});
       if (field.width > 16) label.className = "long";
       const change = () => {
+        mark(input, "");
         if (input.value === input.dataset.shown) return;
         try {
           this.registers.modify(field.name, Registers.parse(field, input.value));
           this.tell(`${field.name} is written`, false);
-          mark(input, "");
         } catch (error) {
           this.tell(error.message, true);
           mark(input, error.message);
