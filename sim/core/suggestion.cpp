@@ -3,6 +3,7 @@
 #include "sim/core/suggestion.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <utility>
 
 namespace mb4::sim {
@@ -44,13 +45,20 @@ std::size_t far_from(std::string_view word, std::string_view one) {
   return part ? kFar - one.size() : kFar;
 }
 
+// "BiSS-C" is meant as "biss-c".
+std::string lower(std::string_view word) {
+  std::string small(word);
+  for (char& c : small) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return small;
+}
+
 }  // namespace
 
 std::string nearest(std::string_view word, const std::vector<std::string>& known) {
   std::pair<std::size_t, std::size_t> best{kFar, 0};  // how far, how long
   std::string found;
   for (const std::string& one : known) {
-    const std::pair rank{far_from(word, one), one.size()};
+    const std::pair rank{far_from(lower(word), lower(one)), one.size()};
     if (rank >= best) continue;
     best = rank;
     found = one;

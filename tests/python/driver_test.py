@@ -178,10 +178,10 @@ def test_unknown_member_is_refused(chip):
 
 
 @pytest.mark.parametrize("call, message", [
-    (lambda d: d.read_frame(300), r"^read_frame\(300\): slave is 1 to 8$"),
+    (lambda d: d.read_frame(300), r"^read_frame\(300\): slave is 1 to 8, and one that the configuration has$"),
     (lambda d: d.slave_read(1, 0, 256), r"^slave_read\(1, 0, 0x100, 1\): channel is 1 or 2, .*at most 128"),
-    (lambda d: d.read_frame(9), r"^read_frame\(9\): invalid argument: slave is 1 to 8$"),
-    (lambda d: d.clear_valid(0), r"^clear_valid\(0\): invalid argument: slave is 1 to 8$"),
+    (lambda d: d.read_frame(9), r"^read_frame\(9\): invalid argument: slave is 1 to 8, and one that the configuration has$"),
+    (lambda d: d.clear_valid(0), r"^clear_valid\(0\): invalid argument: slave is 1 to 8, and one that the configuration has$"),
     (lambda d: d.slave_read(3, 0, 0), r"^slave_read\(3, 0, 0x00, 1\): invalid argument: channel is 1 or 2"),
     (lambda d: d.read_registers(0, 65), r"^read_registers\(0x00, 65\): .*size 1 to 64"),
     (lambda d: d.scan(3), r"^scan\(3\): invalid argument: channel is 1 or 2$"),

@@ -89,11 +89,10 @@ void add_sweep(CLI::App& app, Action& action) {
   add_list("--delays", options->delays,
            "Round-trip delays in ns, on all channels (default 0:400:20)");
   add_list("--jitters", options->jitters,
-           "Jitter of SL in % of T_MA, on dsl-model of a bit, peak to peak (default 0:50:5)");
-  add_list(
-      "--freqs", options->freqs,
-      "Codes of the frequency of MA: FREQS, on biss_axi MA_DIVIDER; on dsl-model rules SAMPLE; "
-      "or all (default: as the scenario says)");
+           "Jitter of SL in % of T_MA, on dsl of a bit, peak to peak (default 0:50:5)");
+  add_list("--freqs", options->freqs,
+           "Codes of the frequency of MA: FREQS, on biss_axi MA_DIVIDER; on dsl rules SAMPLE; "
+           "or all (default: as the scenario says)");
   add_frames(sweep, options->frames, "Frames at each point (default 20)", 1);
   add_output(sweep, "--csv", options->csv, "Also write one line a point");
   add_output(sweep, "--svg", options->svg, "Also draw the eye margin (.png: by rsvg-convert)",
@@ -103,7 +102,7 @@ void add_sweep(CLI::App& app, Action& action) {
   add_seed(sweep, options->seed);
   sweep.footer(
       "LIST is A, A,B,C or FROM:TO:STEP. The rest of the cable is as the scenario says. Exit "
-      "status 1 if a word was bad with jitter up to 25 % (I305), on dsl-model up to 12, 35, 50 % "
+      "status 1 if a word was bad with jitter up to 25 % (I305), on dsl up to 12, 35, 50 % "
       "by "
       "SAMPLE.\n"
       "Example: mb4sim sweep examples/resolute-26.toml --jitters 0:60:5 --freqs 0,3 --svg eye.svg");

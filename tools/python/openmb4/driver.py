@@ -14,7 +14,7 @@ from .reading import Identity, Reading
 from .table import to_pandas
 
 # What the arguments of a call take: the driver says only that one is out of its range.
-_SLAVE = "slave is 1 to 8"
+_SLAVE = "slave is 1 to 8, and one that the configuration has"
 _ACCESS = "channel is 1 or 2, slave_id 0 to 7, address and size together at most 128, size 1 to 128"
 _REGISTERS = "address is 0 to 0xFF, size 1 to 64, both together at most 256"
 

@@ -11,7 +11,8 @@
 namespace mb4::ports {
 
 // `Count` is as wide as the counter. Less than one turn of it passes within a call of the driver;
-// turns that pass between two calls are missing in the time. What a reading rounds off counts in
+// turns that pass between two calls are missing in the time, which automatic frames and counts
+// need too. What a reading rounds off counts in
 // the next one, so the time is exact at any rate. One object for one Device: at() changes it.
 template <typename Count>
 class CounterUs {

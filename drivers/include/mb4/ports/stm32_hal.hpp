@@ -92,8 +92,8 @@ class TimerClock {
   TIM_HandleTypeDef& timer_;
 };
 
-// The same with a timer of 16 bits, counter period 0xFFFF: it wraps every 65 ms, and what lies
-// between two calls of the driver must be shorter.
+// The same with a timer of 16 bits, counter period 0xFFFF: it wraps every 65 ms. A call of the
+// driver must be shorter; with automatic frames or counts so must what lies between two calls.
 class Timer16Clock {
  public:
   static constexpr std::uint32_t kStepUs = 1;

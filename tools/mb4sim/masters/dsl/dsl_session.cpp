@@ -163,7 +163,7 @@ std::vector<std::string> DslSession::told() const {
   const auto position = [identity](std::uint64_t value) {
     return number_text(value, dsl_position_bits(identity), dsl_is_signed(identity));
   };
-  const bool safe = frame_.safe_new && frame_.safe1.valid;
+  const bool safe = frame_.safe_new && frame_.safe_here && frame_.safe1.valid;
   return {frame_.lost ? "" : position(frame_.position),
           frame_.lost ? "" : fmt::format("{}", frame_.speed),
           safe ? position(frame_.safe1.position) : "", fmt::format("{}", frame_.quality),

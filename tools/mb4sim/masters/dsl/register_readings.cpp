@@ -223,8 +223,10 @@ std::string RegisterReadings::state() {
                      restarts_, reason_name(page::RESTART_REASON::get(status)));
 }
 
-// Those of the map are bytes of its words.
+// Those of the map are bytes of its words. Frames that ended since the last reading are no event of
+// the link.
 RegisterMap RegisterReadings::registers() {
+  port_.write(page::kAddrIrqStatus, page::FRAME_ENDED::kMask | page::FRAME_LOST::kMask);
   RegisterMap out = read_registers(port_, page::kAddrTimeHigh, page::kFields, page::kCodes);
   std::vector<RegisterMap::Field> fields;
   for (const auto& field : map::kFields) {
