@@ -45,7 +45,7 @@ std::size_t far_from(std::string_view word, std::string_view one) {
   return part ? kFar - one.size() : kFar;
 }
 
-// "BiSS-C" is meant as "biss-c".
+// Capitals are no mistake that counts.
 std::string lower(std::string_view word) {
   std::string small(word);
   for (char& c : small) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
