@@ -5,22 +5,12 @@
 #include <algorithm>
 
 #include "sim/core/number_text.hpp"
+#include "sim/core/words.hpp"
 
 namespace mb4::sim {
 namespace {
 
 constexpr double kMaxNs = 1e9;  // one second
-
-std::vector<std::string_view> words_of(std::string_view line) {
-  std::vector<std::string_view> words;
-  constexpr std::string_view kBlank = " \t\r";
-  for (auto at = line.find_first_not_of(kBlank); at != std::string_view::npos;) {
-    const auto end = std::min(line.find_first_of(kBlank, at), line.size());
-    words.push_back(line.substr(at, end - at));
-    at = line.find_first_not_of(kBlank, end);
-  }
-  return words;
-}
 
 }  // namespace
 
@@ -39,7 +29,7 @@ ReplayRecording parse_recording(std::string_view text, const std::string& name) 
     std::string_view line = text.substr(0, end);
     text.remove_prefix(std::min(end + 1, text.size()));
     line = line.substr(0, std::min(line.find('#'), line.size()));
-    const auto words = words_of(line);
+    const auto words = split_at_blanks(line);
     if (words.empty()) continue;
     if (words.size() != 2) fail("expected 'ma_hz FREQUENCY' or 'NANOSECONDS LEVEL'");
     if (words[0] == "ma_hz") {

@@ -14,6 +14,7 @@
 
 #include "commands/commands.hpp"
 #include "mb4sim/simulator.hpp"
+#include "plot/svg.hpp"
 #include "report/colour.hpp"
 #include "report/exit_status.hpp"
 #include "report/fault_report.hpp"
@@ -147,21 +148,14 @@ Row run_one(const std::string& path, const sim::Scenario& scenario, std::uint64_
   return row;
 }
 
-std::string xml_text(std::string_view text) {
+// As the value of an attribute.
+std::string attribute(std::string_view text) {
   std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
+  for (const char c : svg::escaped(text)) {
+    if (c == '"') {
+      out += "&quot;";
+    } else {
+      out += c;
     }
   }
   return out;
@@ -170,14 +164,14 @@ std::string xml_text(std::string_view text) {
 // A run as a test of JUnit.
 std::string junit_case(const Row& row) {
   const std::string begin = fmt::format("  <testcase classname=\"{}\" name=\"seed {}\"",
-                                        xml_text(row.scenario), row.seed);
+                                        attribute(row.scenario), row.seed);
   if (row.status == kGood) return begin + "/>\n";
   return begin +
          fmt::format(
              ">\n    <failure message=\"{}\">good {}, bad {}, faults {}, missed {}; repeat: "
              "mb4sim run {} --seed {}</failure>\n  </testcase>\n",
-             xml_text(row.state), row.good, row.bad, row.faults, row.missed, xml_text(row.scenario),
-             row.seed);
+             attribute(row.state), row.good, row.bad, row.faults, row.missed,
+             attribute(row.scenario), row.seed);
 }
 
 // The table and the sums of a batch.

@@ -3,6 +3,7 @@
 #include "plot/dsl_seen.hpp"
 
 #include "dsl_page_regs.hpp"
+#include "dsl_window.hpp"
 #include "sim/masters/dsl/live_dsl.hpp"
 #include "sim/masters/dsl_model/dsl_master.hpp"
 #include "word_port.hpp"
@@ -39,31 +40,22 @@ std::optional<DslSeen> seen_by(sim::dsl_model::LinkModel& model) {
 
 // A running frame, whose record the window has.
 bool take_record(WordPort& port, const sim::DslHost& host, DslSeen& seen) {
-  std::uint32_t low = 0;
-  std::uint32_t high = 0;
-  std::uint32_t speed = 0;
-  std::uint32_t time_low = 0;
-  std::uint32_t time_high = 0;
-  std::uint32_t status = 0;
-  std::uint32_t number = 0;
+  const auto window = read_dsl_window(port);
   std::uint32_t safe = 0;
   std::uint32_t age = 0;
-  const bool done = port.read(page::kAddrPosLo, low) && port.read(page::kAddrPosHi, high) &&
-                    port.read(page::kAddrVel, speed) && port.read(page::kAddrFrameCount, number) &&
-                    port.read(page::kAddrFrameTimeLo, time_low) &&
-                    port.read(page::kAddrFrameTimeHi, time_high) &&
-                    port.read(page::kAddrFrameStatus, status) &&
-                    port.read(page::kAddrSafe1Lo, safe) && port.read(page::kAddrSafe1Age, age);
-  const auto at = host.edge_at(std::uint64_t{time_high} << 32U | time_low);
-  if (!done || !at) return false;
+  if (!window || !port.read(page::kAddrSafe1Lo, safe) || !port.read(page::kAddrSafe1Age, age)) {
+    return false;
+  }
+  const auto at = host.edge_at(window->time);
+  if (!at) return false;
   seen.sampled = *at;
-  seen.number = number;
+  seen.number = window->number;
   if (age < kVertical) seen.place = (kLastPlace + age) % kVertical;
-  seen.position = std::uint64_t{high} << 32U | low;
-  seen.lost = page::FRAME_POS_LOST::get(status) != 0;
-  seen.speed = static_cast<int>(speed);
-  seen.quality = page::FRAME_QUALITY::get(status);
-  seen.delay = page::FRAME_DELAY_BITS::get(status);
+  seen.position = window->position;
+  seen.lost = window->lost;
+  seen.speed = window->speed;
+  seen.quality = window->quality;
+  seen.delay = window->delay;
   return true;
 }
 

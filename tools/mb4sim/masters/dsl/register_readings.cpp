@@ -10,6 +10,7 @@
 
 #include "dsl_page_regs_table.hpp"
 #include "dsl_regs_table.hpp"
+#include "dsl_window.hpp"
 #include "masters/dsl/dsl_readings.hpp"
 #include "sim/masters/dsl/live_dsl.hpp"
 #include "sim/masters/dsl_model/link.hpp"
@@ -134,37 +135,22 @@ bool RegisterReadings::read_identity() {
   return true;
 }
 
-// The first word copies the others.
 bool RegisterReadings::take_position(DslReading& frame) {
-  std::uint32_t low = 0;
-  std::uint32_t high = 0;
-  std::uint32_t speed = 0;
-  std::uint32_t count = 0;
-  std::uint32_t time_low = 0;
-  std::uint32_t time_high = 0;
-  std::uint32_t status = 0;
+  const auto window = read_dsl_window(port_);
   std::uint32_t missing = 0;
-  const bool done = port_.read(page::kAddrPosLo, low) && port_.read(page::kAddrPosHi, high) &&
-                    port_.read(page::kAddrVel, speed) && port_.read(page::kAddrFrameCount, count) &&
-                    port_.read(page::kAddrFrameTimeLo, time_low) &&
-                    port_.read(page::kAddrFrameTimeHi, time_high) &&
-                    port_.read(page::kAddrFrameStatus, status) &&
-                    port_.read(word_at(map::kAddrAccErrCnt), missing);
-  if (!done) return false;
-  const std::uint32_t since = count - static_cast<std::uint32_t>(number_);
+  if (!window || !port_.read(word_at(map::kAddrAccErrCnt), missing)) return false;
+  const std::uint32_t since = window->number - static_cast<std::uint32_t>(number_);
   if (number_ != 0 && since > 1) missed_ += since - 1;
   number_before_ = number_;
   number_ += since;
   frame.number = number_;
-  const std::uint64_t time = std::uint64_t{time_high} << 32U | time_low;
-  frame.sampled = host_.edge_at(time).value_or(simulator_.now());
+  frame.sampled = host_.edge_at(window->time).value_or(simulator_.now());
   frame.acceleration_good = byte_of(missing, map::kAddrAccErrCnt) == 0;
-  frame.lost = page::FRAME_POS_LOST::get(status) != 0;
-  const std::uint64_t wide = std::uint64_t{high} << 32U | low;
-  frame.position = wide & ~std::uint64_t{0} >> (64 - dsl_position_bits(identity_));
-  frame.speed = static_cast<int>(speed);
-  frame.quality = page::FRAME_QUALITY::get(status);
-  frame.delay = page::FRAME_DELAY_BITS::get(status);
+  frame.lost = window->lost;
+  frame.position = window->position & ~std::uint64_t{0} >> (64 - dsl_position_bits(identity_));
+  frame.speed = window->speed;
+  frame.quality = window->quality;
+  frame.delay = window->delay;
   return true;
 }
 

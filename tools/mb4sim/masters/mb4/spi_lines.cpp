@@ -4,8 +4,9 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <charconv>
+
+#include "sim/core/words.hpp"
 
 namespace mb4::tool {
 namespace {
@@ -22,15 +23,7 @@ bool parse_whole(std::string_view word, T& value, int base) {
 }  // namespace
 
 std::vector<std::string_view> words_of(std::string_view line) {
-  line = line.substr(0, std::min(line.find('#'), line.size()));
-  std::vector<std::string_view> words;
-  constexpr std::string_view kBlank = " \t\r";
-  for (auto at = line.find_first_not_of(kBlank); at != std::string_view::npos;) {
-    const auto end = std::min(line.find_first_of(kBlank, at), line.size());
-    words.push_back(line.substr(at, end - at));
-    at = line.find_first_not_of(kBlank, end);
-  }
-  return words;
+  return sim::split_at_blanks(line.substr(0, line.find('#')));
 }
 
 std::string execute_words(sim::Simulator& simulator, SimBus& bus,
