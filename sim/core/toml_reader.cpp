@@ -5,6 +5,7 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "sim/core/number_text.hpp"
@@ -113,9 +114,15 @@ std::string syntax_error(std::string_view text, const std::string& name,
   return message;
 }
 
-// "; write cable_m = 10" where a string holds a number.
+// "; write cable_m = 10" where a string holds a number, and where a whole one is wanted as 3e6 or 2.0.
 std::string write_number(std::string_view key, const TomlValue& value) {
-  const std::string line = value.is(Kind::kText) ? number_line(key, value.text) : "";
+  constexpr double kExact = 9'007'199'254'740'992.0;  // 2^53: whole numbers up to it are exact
+  std::string line;
+  if (value.is(Kind::kText)) line = number_line(key, value.text);
+  if (value.is(Kind::kNumber) && std::abs(value.number) <= kExact &&
+      value.number == std::floor(value.number)) {
+    line = std::string(key) + " = " + toml_number(value.number);
+  }
   return line.empty() ? "" : "; write " + line;
 }
 

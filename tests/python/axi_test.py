@@ -83,6 +83,20 @@ def test_other_masters_have_no_such_bus():
     assert error.value.code == "MB4SIM_ERROR_HOST"
 
 
+@pytest.mark.parametrize("access, said", [
+    (lambda chip: chip.axi_read(0x11), "axi_read 0x11: an address is that of a word, a multiple of 4"),
+    (lambda chip: chip.axi_write(0x12, 0), "axi_write 0x12: an address is that of a word, a multiple of 4"),
+    (lambda chip: chip.axi_read(0x10_0000),
+     "axi_read 0x100000: the bus of this master does not have this address"),
+    (lambda chip: chip.axi_write(0x10, 1 << 32), "axi_write 0x10: value is 0 to 0xFFFFFFFF, not 4294967296"),
+    (lambda chip: chip.axi_write(0x10, 0, 16), "axi_write 0x10: strobe is 0 to 0xF, not 16"),
+])
+def test_wrong_access_says_what_is_right(chip, access, said):
+    with pytest.raises(openmb4.Error, match=f"^{said}$") as error:
+        access(chip)
+    assert error.value.code == "MB4SIM_ERROR_VALUE"
+
+
 def test_bus_without_a_clock_is_an_error():
     with openmb4.Simulator(SCENARIO.replace("100_000_000", "0")) as chip:
         with pytest.raises(openmb4.Error) as error:

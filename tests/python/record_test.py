@@ -50,6 +50,11 @@ def test_edges_are_those_of_the_c_interface_to_a_picosecond(chip):
     assert chip.pin("EOT") == record.pins["EOT"][1][-1]
 
 
+def test_one_name_is_told_to_be_a_list(chip):
+    with pytest.raises(openmb4.Error, match=r"^record: pins is a list of names: \['MA1'\], not 'MA1'$"):
+        chip.record("MA1", 10)
+
+
 def test_recorded_time_is_that_of_the_simulator(chip):
     begin = chip.time_ns
     first = chip.record(("MA1",), 1234)

@@ -8,7 +8,7 @@ import pytest
 SPI = '[[channel]]\nnumber = 1\n[[channel.slave]]\nprotocol = "biss-c"\ndata_bits = 16\n'
 
 
-@pytest.fixture(params=["spi", "motorola"])
+@pytest.fixture(params=["spi", "motorola", "axi", "wb"])
 def chip(request):
     with openmb4.Simulator(f'[host]\ninterface = "{request.param}"\n{SPI}') as opened:
         yield opened
@@ -85,3 +85,27 @@ def test_unknown_name_is_refused(chip):
     with pytest.raises(AttributeError, match="FREQX'; did you mean FREQS?"):
         chip.regs.FREQX.read()
     assert {"FREQS", "FREQ", "SCDATA8", "CHSEL2", "LSTOP5"} <= set(dir(chip.regs))
+
+
+def master(name):
+    """A simulator of this master."""
+    return openmb4.Simulator({"ic-mb4": SPI, "axi": '[master]\ntype = "axi"\n[host]\ninterface = "axi"\n' + SPI}[name])
+
+
+@pytest.mark.parametrize("own, other, said", [
+    ("axi", "regs.FREQS", "regs are the registers of the master 'ic-mb4'; here it is 'axi', with axi_regs"),
+    ("axi", "pru_regs.ID", "pru_regs are the registers of the master 'pru'; here it is 'axi', with axi_regs"),
+    ("axi", "dsl_regs.VERSION", "dsl_regs are the registers of the master 'dsl'; here it is 'axi', with axi_regs"),
+    ("ic-mb4", "axi_regs.ID", "axi_regs are the registers of the master 'axi'; here it is 'ic-mb4', with regs"),
+])
+def test_registers_of_another_master_are_refused(own, other, said):
+    with master(own) as chip:
+        group, name = other.split(".")
+        before = chip.clk_cycles
+        one = getattr(chip, group)[name]
+        register = getattr(one, "register", one)
+        for access in (register.read, lambda: register.write(0)):
+            with pytest.raises(openmb4.Error, match=f"^{said}$") as error:
+                access()
+            assert error.value.code == "MB4SIM_ERROR_HOST"
+        assert chip.clk_cycles == before

@@ -51,7 +51,9 @@ CLI::Validator microseconds() {
 CLI::Validator file_name() {
   return CLI::Validator(
       [](const std::string& text) {
-        return text.empty() ? std::string("a file name is needed") : std::string();
+        if (text.empty()) return std::string("a file name is needed");
+        if (text == "-") return std::string("'-' is taken for no pipe: give a file name (./- for one of this name)");
+        return std::string();
       },
       "");
 }

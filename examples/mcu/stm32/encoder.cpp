@@ -17,6 +17,10 @@ extern "C" TIM_HandleTypeDef htim2;  // counts microseconds, 32 bits
 extern "C" void encoder() {
   mb4::ports::HalSpiBus bus(hspi1, MB4_NCS_GPIO_Port, MB4_NCS_Pin);
   mb4::ports::TimerClock clock(htim2);
+  if (!clock.fits()) {
+    std::printf("TIM2 does not wrap at 2^32\n");
+    return;
+  }
   mb4::Device device(bus, clock);
 
   mb4::Config config;

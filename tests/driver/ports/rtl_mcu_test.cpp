@@ -218,7 +218,8 @@ class DriverMcu : public mb4test::PortChip {
     dwt = {};
     dwt.CYCCNT.hz = SystemCoreClock;
     core_debug = {};
-    timer = {};
+    timer.CNT = {};
+    timer.ARR = 0xFFFFFFFFU;
     htim2.Instance = &timer;
     hspi1.Init.BaudRatePrescaler = SPI_BAUDRATEPRESCALER_16;
     stm_hz = hz_of(SPI_BAUDRATEPRESCALER_16);
@@ -253,6 +254,14 @@ TEST_F(DriverMcu, Stm32Example_PrintsPositions) {
   EXPECT_EQ(printed([] { encoder(); }), kThreePositions);
   EXPECT_EQ(read_hz, 5'000'000U);
   EXPECT_EQ(inits, 0U);
+}
+
+// TIM2 of an F1, L0 or L1 keeps 16 bits of its reload register; CubeMX has 65535 where nobody set it.
+TEST_F(DriverMcu, Stm32ExampleWithA16BitTimer_SaysSo) {
+  timer.ARR = 0xFFFFU;
+  testing::internal::CaptureStdout();
+  encoder();
+  EXPECT_EQ(testing::internal::GetCapturedStdout(), "TIM2 does not wrap at 2^32\n");
 }
 
 TEST_F(DriverMcu, PicoExample_PrintsPositions) {

@@ -83,6 +83,12 @@ class Cli(CliTest):
                                  r"/no/such\.toml: cannot read: No such file")
         self.assert_one_line(run("run", self.folder.name), 2, "is a directory")
 
+    def test_a_dash_is_no_pipe(self):
+        before = os.listdir(".")
+        for words in (("run", "-"), ("run", RESOLUTE, "--csv", "-"), ("plot", RESOLUTE, "--svg", "-")):
+            self.assert_one_line(run(*words), 2, "'-' is taken for no pipe: give a file name")
+        self.assertEqual(os.listdir("."), before)
+
     def test_run_shows_positions_of_every_protocol(self):
         keys = {"ssi": "gray = true\n", "biss-b": "crc = 0x25\n", "biss-c": "crc = 0x43\n"}
         for first, second in itertools.product(keys, keys):

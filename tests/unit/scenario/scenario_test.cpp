@@ -297,6 +297,15 @@ INSTANTIATE_TEST_SUITE_P(
                     "s.toml:3:1: key 'f_clk': unknown key, did you mean 'f_clk_hz'?"},
         BadScenario{"WrongType", "[chip]\nf_clk_hz = \"fast\"\n",
                     "s.toml:2:12: key 'f_clk_hz': expected an integer, found a string"},
+        BadScenario{"WholeNumberAsFloat", "[chip]\nf_clk_hz = 2e7\n",
+                    "s.toml:2:12: key 'f_clk_hz': expected an integer, found a floating-point "
+                    "number; write f_clk_hz = 20_000_000"},
+        BadScenario{"BrokenNumber", "[chip]\nf_clk_hz = 20.5\n",
+                    "s.toml:2:12: key 'f_clk_hz': expected an integer, found a floating-point "
+                    "number"},
+        BadScenario{"Infinite", "[chip]\nf_clk_hz = inf\n",
+                    "s.toml:2:12: key 'f_clk_hz': expected an integer, found a floating-point "
+                    "number"},
         BadScenario{"Negative", "[chip]\nf_clk_hz = -1\n",
                     "s.toml:2:12: key 'f_clk_hz': -1 is outside 0 to 200000000"},
         BadScenario{"TooSlow", "[chip]\nf_clk_hz = 10\n",

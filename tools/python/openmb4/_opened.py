@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A scenario that is open, and its host: what driver and registers need of a simulator."""
 
+import functools
 import json
 import os
 import threading
@@ -13,6 +14,7 @@ from ._library import Error, ffi, lib, simulator_error
 Scenario = Union[str, "os.PathLike[str]", Mapping[str, Any]]
 ERROR_BYTES = 1000
 STREAM_WORDS = 64  # more than any master has in a beat
+_REGISTERS = {"ic-mb4": "regs", "axi": "axi_regs", "clb": "clb_regs", "pru": "pru_regs", "dsl": "dsl_regs"}
 
 
 def to_toml(value: Any) -> str:
@@ -90,6 +92,20 @@ class Opened:
         failed = lib.openmb4_describe(self._scenario, self._is_path, found, error, ERROR_BYTES)
         return None if failed else found
 
+    @functools.cached_property
+    def _master(self) -> str:
+        """`[master] type` of the scenario; empty where it cannot be read any more."""
+        found = self._describe()
+        return "" if found is None else str(ffi.string(found.master).decode())
+
+    def _must_be(self, master: str) -> None:
+        """Registers of another master have no meaning here, even where an address answers."""
+        if self._master not in ("", master):
+            own = _REGISTERS.get(self._master)
+            raise Error(f"{_REGISTERS[master]} are the registers of the master '{master}'; here it is "
+                        f"'{self._master}'" + (f", with {own}" if own else ", which has none"),
+                        "MB4SIM_ERROR_HOST")
+
     def close(self) -> None:
         """Ends the simulator; a second call does nothing."""
         with self._lock:
@@ -137,16 +153,31 @@ class Opened:
         self._do("bus_read", lib.mb4sim_bus_read, address, value)
         return int(value[0])
 
+    def _on_words(self, what: str, address: int, function: Callable[..., int], *arguments: Any) -> None:
+        """An access of a bus of words; its error says what the address may be."""
+        what = f"{what} 0x{address:02X}"
+        with self._lock:
+            result: int = self._call(function, self._sim, address, *arguments)
+        if result == lib.MB4SIM_ERROR_VALUE:
+            raise simulator_error(result, what, "an address is that of a word, a multiple of 4"
+                                  if address % 4 else "the bus of this master does not have this address")
+        if result < 0:
+            raise simulator_error(result, what)
+        if result:
+            raise Error(f"{what}: the bus answered with an error")
+
     def axi_write(self, address: int, value: int, strobe: int = 0xF) -> None:
         """One write of a bus of 32-bit words (AXI4-Lite); bit b of strobe lets byte b be written."""
-        if self._do(f"axi_write 0x{address:02X}", lib.mb4sim_axi_write, address, value, strobe):
-            raise Error(f"axi_write 0x{address:02X}: the bus answered with an error")
+        for name, number, most in (("value", value, 0xFFFF_FFFF), ("strobe", strobe, 0xF)):
+            if not 0 <= number <= most:
+                raise Error(f"axi_write 0x{address:02X}: {name} is 0 to 0x{most:X}, not {number}",
+                            "MB4SIM_ERROR_VALUE")
+        self._on_words("axi_write", address, lib.mb4sim_axi_write, value, strobe)
 
     def axi_read(self, address: int) -> int:
         """One read of a bus of 32-bit words (AXI4-Lite)."""
         value = ffi.new("uint32_t *")
-        if self._do(f"axi_read 0x{address:02X}", lib.mb4sim_axi_read, address, value):
-            raise Error(f"axi_read 0x{address:02X}: the bus answered with an error")
+        self._on_words("axi_read", address, lib.mb4sim_axi_read, value)
         return int(value[0])
 
     def mem_write(self, address: int, data: bytes) -> None:

@@ -4,7 +4,7 @@
 
 import json
 import re
-from typing import Any, Dict, List, Optional, Protocol, Union
+from typing import Any, Callable, Dict, List, Optional, Protocol, Union
 
 from ._library import HERE, Error, NameMistake, similar
 from ._opened import Opened
@@ -26,46 +26,56 @@ class Bus(Protocol):
 
 
 class ChipBus:
-    """The iC-MB4 through SPI or, where the scenario's host is one, the parallel bus."""
+    """The iC-MB4 through what its host has: SPI, the parallel bus or a bus of words."""
 
     bits = 8
 
     def __init__(self, simulator: Opened):
         self.simulator = simulator
 
+    def _by_host(self, *ways: Callable[[], Any]) -> Any:
+        """The result of the first way that the host has."""
+        self.simulator._must_be("ic-mb4")
+        for way in ways[:-1]:
+            try:
+                return way()
+            except Error as error:
+                if error.code != "MB4SIM_ERROR_HOST":
+                    raise
+        return ways[-1]()
+
     def read(self, address: int) -> int:
         """The register at an address."""
-        try:
-            return self.simulator.spi(bytes((READ, address, 0)))[2]
-        except Error as error:
-            if error.code != "MB4SIM_ERROR_HOST":
-                raise
-            return self.simulator.bus_read(address)
+        chip = self.simulator
+        value: int = self._by_host(lambda: chip.spi(bytes((READ, address, 0)))[2],
+                                   lambda: chip.bus_read(address),
+                                   lambda: chip.mem_read(address, 1)[0])
+        return value
 
     def write(self, address: int, value: int) -> None:
         """Writes the register at an address."""
-        try:
-            self.simulator.spi(bytes((WRITE, address, value)))
-        except Error as error:
-            if error.code != "MB4SIM_ERROR_HOST":
-                raise
-            self.simulator.bus_write(address, value)
+        chip = self.simulator
+        self._by_host(lambda: chip.spi(bytes((WRITE, address, value))),
+                      lambda: chip.bus_write(address, value),
+                      lambda: chip.mem_write(address, bytes((value,))))
 
 
 class AxiBus:
-    """A master on AXI4-Lite."""
+    """A master on AXI4-Lite, `[master] type` of the scenario."""
 
     bits = 32
 
-    def __init__(self, simulator: Opened):
-        self.simulator = simulator
+    def __init__(self, simulator: Opened, master: str):
+        self.simulator, self._master = simulator, master
 
     def read(self, address: int) -> int:
         """The register at an address."""
+        self.simulator._must_be(self._master)
         return self.simulator.axi_read(address)
 
     def write(self, address: int, value: int) -> None:
         """Writes the register at an address."""
+        self.simulator._must_be(self._master)
         self.simulator.axi_write(address, value)
 
 
@@ -79,10 +89,12 @@ class DslBus:
 
     def read(self, address: int) -> int:
         """The register at an address."""
+        self.simulator._must_be("dsl")
         return self.simulator.mem_read(address, 1)[0]
 
     def write(self, address: int, value: int) -> None:
         """Writes the register at an address, and no other byte of its word."""
+        self.simulator._must_be("dsl")
         self.simulator.mem_write(address, bytes((value,)))
 
 

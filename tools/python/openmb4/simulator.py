@@ -74,10 +74,10 @@ class Simulator(Opened):
         super().__init__(scenario)
         self.driver = Driver(self)
         self.regs = Registers(ChipBus(self), "mb4")
-        self.axi_regs = Registers(AxiBus(self), "axi")
-        self.clb_regs = Registers(AxiBus(self), "clb")
-        self.pru_regs = Registers(AxiBus(self), "pru")
-        self.dsl_regs = Registers(DslBus(self), "dsl", Registers(AxiBus(self), "dsl_page"))
+        self.axi_regs = Registers(AxiBus(self, "axi"), "axi")
+        self.clb_regs = Registers(AxiBus(self, "clb"), "clb")
+        self.pru_regs = Registers(AxiBus(self, "pru"), "pru")
+        self.dsl_regs = Registers(DslBus(self), "dsl", Registers(AxiBus(self, "dsl"), "dsl_page"))
 
     @classmethod
     def from_file(cls, path: "Union[str, os.PathLike[str]]") -> "Simulator":
@@ -166,6 +166,8 @@ class Simulator(Opened):
         """Lets `ns` pass and keeps every edge of these pins with its time in ps. Besides pins there
         are "SLO1", the output of the slave at its end of the cable of channel 1, and on a line of one
         wire "OUT1", "EN1", "IN1", "ENCODER1"."""
+        if isinstance(pins, str):
+            raise Error(f"record: pins is a list of names: [{pins!r}], not {pins!r}")
         if ns < 0:
             raise Error(f"record: ns is 0 or more, not {ns}")
         names, places, channels = list(dict.fromkeys(pins)), [], []

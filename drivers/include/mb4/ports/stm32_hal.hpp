@@ -81,11 +81,14 @@ class HalSpiBus {
 #ifdef HAL_TIM_MODULE_ENABLED
 // A timer of 32 bits (often TIM2, TIM5) that counts microseconds: prescaler = its clock in MHz - 1,
 // counter period 0xFFFFFFFF, started by HAL_TIM_Base_Start(). It has no state, so several devices
-// and interrupts may share it.
+// and interrupts may share it. Ask fits() once: with a timer of 16 bits or another counter period it
+// wraps sooner than the driver takes for granted, which shows as false timeouts.
 class TimerClock {
  public:
   static constexpr std::uint32_t kStepUs = 1;
   explicit TimerClock(TIM_HandleTypeDef& timer) : timer_(timer) {}
+  // The timer wraps at 2^32, as it must. Reload registers of 16 bits read back at most 0xFFFF.
+  bool fits() const { return __HAL_TIM_GET_AUTORELOAD(&timer_) == 0xFFFFFFFFU; }
   std::uint32_t now_us() { return __HAL_TIM_GET_COUNTER(&timer_); }
 
  private:

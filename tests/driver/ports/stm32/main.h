@@ -50,6 +50,7 @@ typedef struct {
 } SPI_HandleTypeDef;
 typedef struct {
   STUB_COUNTER CNT;
+  volatile uint32_t ARR;
 } TIM_TypeDef;
 typedef struct {
   TIM_TypeDef* Instance;
@@ -59,6 +60,7 @@ typedef struct {
 #define SPI_BAUDRATEPRESCALER_16 0x18U
 #define GPIO_PIN_4 ((uint16_t)0x0010)
 #define __HAL_TIM_GET_COUNTER(handle) ((handle)->Instance->CNT)
+#define __HAL_TIM_GET_AUTORELOAD(handle) ((handle)->Instance->ARR)
 
 HAL_StatusTypeDef HAL_SPI_Init(SPI_HandleTypeDef* hspi);
 HAL_StatusTypeDef HAL_SPI_Transmit(SPI_HandleTypeDef* hspi, HAL_CONST uint8_t* pData, uint16_t Size,
