@@ -10,9 +10,9 @@
 // Without an answer within WaitLimit clocks of the bus the access ends with bus_error_o and data of
 // 0. The core still does it when its clock runs again; until then further accesses end so too, and
 // its answer is dropped.
-// Reset: rst_ni is asserted with bus_rst_ni, and with the core's reset alone. Behind the latter the
-// core reads once more what it has read or written last, and answers to nobody; what is done is not
-// written again.
+// Reset: rst_ni is asserted with bus_rst_ni and released with clk_i. The core's own reset does not
+// touch the crossing: an access waits until the core is there again, or for the limit; core_data_i
+// of one that is done stays.
 // Misuse: a request that falls before bus_ready_o gets no answer, and may have been done.
 // Constraint: bus_*_q and core_data_i are stable when the other side takes them: maximum delay of
 // one period of the taking clock; false paths to the first flops of enc_sync_bit.
@@ -117,13 +117,11 @@ module dsl_bridge #(
         mine_q <= (mine_q || starts) && bus_req_i && !bus_ready_o;
         wait_q <= bus_req_i && !bus_ready_o ? wait_q + W'(1) : '0;
         if (starts) begin
-          addr_q <= bus_addr_i;
-          data_q <= bus_data_i;
-          be_q   <= bus_be_i;
+          write_q <= bus_write_i;
+          addr_q  <= bus_addr_i;
+          data_q  <= bus_data_i;
+          be_q    <= bus_be_i;
         end
-        // What is done is not written again, should the core's half be reset.
-        if (starts)      write_q <= bus_write_i;
-        else if (!flies) write_q <= 1'b0;
       end
     end
 

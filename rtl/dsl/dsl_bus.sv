@@ -8,7 +8,7 @@
 // need no relation. With SameClock = 1 both ports have the clock of 75 MHz, and the crossing is
 // left out. quirks_i stands still; dsl_in_i is asynchronous; outputs: dsl_core.
 // Reset: s_axi_aresetn resets the bus side, rst_ni the core with its registers. Both may fall and
-// rise at any time.
+// rise at any time; an access that meets a core in reset waits for it, or for WaitLimit.
 // Latency: enc_axil, dsl_bridge and dsl_regs; an access takes 10 clocks of the core, and 6 of the
 // bus. An access without an answer within WaitLimit clocks of the bus ends with SLVERR: the clock
 // of the core stands still. A write is done all the same when it runs again.
@@ -76,10 +76,10 @@ module dsl_bus #(
     .rst_sync_no (bus_rst_n)
   );
 
-  // The core's half of the crossing begins anew with either side.
+  // Both halves of the crossing begin anew together.
   enc_reset_sync u_bridge_rst (
     .clk_i,
-    .rst_ni      (rst_ni && s_axi_aresetn),
+    .rst_ni      (s_axi_aresetn),
     .rst_sync_no (bridge_rst_n)
   );
 

@@ -7,7 +7,8 @@
 // Clock domain: core. word_req_i and what comes with it stay up to the clock with word_ready_o,
 // which is the seventh one of an access: word_data_o is right in it. If a number of more than one
 // byte changes meanwhile, a read begins anew; one of TIME_LOW waits 9 to 17 clocks for the time.
-// word_data_o of a write is undefined; it stays up to the second clock of the next access.
+// word_data_o of a write is undefined; it stays up to the second clock of the next access, also
+// through a reset.
 // record_data_i is the byte that record_*_o has asked for, one clock later. hold_o is 1 while PRST
 // is, in the personality of the SDK for one clock.
 //
@@ -135,7 +136,6 @@ module dsl_regs (
       record_q <= 1'b0;
       kind_q   <= dsl_map_pkg::CONSTANT;
       byte_q   <= '0;
-      word_q   <= '0;
       copy_q   <= 1'b0;
       copied_q <= 1'b0;
     end else begin
@@ -143,11 +143,15 @@ module dsl_regs (
       record_q <= here && told_q && row.kind >= dsl_map_pkg::RECORD;
       kind_q   <= row.kind;
       byte_q   <= register;
-      if (step_q[2:1] != 2'd0 && step_q != LAST_STEP) begin
-        word_q <= {byte_q | (shaped & {8{record_q}}), word_q[31:8]};
-      end
       copy_q   <= time_copy_o && !time_copied_i;
       copied_q <= word_req_i && step_q != LAST_STEP && (copied_q || (copy_q && time_copied_i));
+    end
+  end
+
+  // No reset: an answer on its way to the bus outlives the core's.
+  always_ff @(posedge clk_i) begin
+    if (step_q[2:1] != 2'd0 && step_q != LAST_STEP) begin
+      word_q <= {byte_q | (shaped & {8{record_q}}), word_q[31:8]};
     end
   end
 

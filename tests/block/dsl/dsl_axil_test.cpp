@@ -52,8 +52,24 @@ class Bench {
     for (unsigned i = 0; i < 40; ++i) bus_clock();
   }
 
+  // The core's reset falls before the bus clock with this number, and stays for so many; 0: a pulse
+  // between two clocks.
+  void reset_core(unsigned clock, unsigned clocks) {
+    reset_at_ = clock;
+    reset_for_ = clocks;
+  }
+
   // Up to the next rising edge of the bus's clock, with it.
   void bus_clock() {
+    if (reset_at_ != 0 && --reset_at_ == 0) {
+      m.rst_ni = 0;
+      m.eval();
+      release_at_ = reset_for_ + 1;
+    }
+    if (release_at_ != 0 && --release_at_ == 0) {
+      m.rst_ni = 1;
+      m.eval();
+    }
     if (period_ == 0) {
       edge(true, true);
       edge(false, false);
@@ -130,6 +146,7 @@ class Bench {
 
   std::uint64_t period_;
   std::uint64_t core_at_ = 0, bus_at_ = 0;
+  unsigned reset_at_ = 0, reset_for_ = 0, release_at_ = 0;
   mb4test::Dice& random_;
 
  public:
@@ -246,6 +263,25 @@ TEST_P(DslAxilBlock, ResetOfOneSide_WritesNothingTwice) {
     ASSERT_EQ(es.response, kOkay);
     ASSERT_EQ(es.data >> 8U & 0xFFU, bus ? 0x11U : 0x01U);
     ASSERT_EQ(bench.read(page::kAddrId).data, 0x454E4305U);
+  }
+}
+
+// A reset of the core in each part of an access: an answer without an error is the core's own.
+TEST_P(DslAxilBlock, ResetOfTheCore_NoAnswerThatItDidNotGive) {
+  const auto access = static_cast<unsigned>(10 + 16 * kCorePeriod / period());
+  for (unsigned turn = 0; turn < 2000; ++turn) {
+    Bench<Vdsl_axil> bench(period(), random);
+    if (random.below(2) != 0) bench.read(0);
+    bench.reset_core(1 + random.below(access), random.below(6));
+    const bool writes = random.below(4) == 0;
+    const Answer first = writes ? bench.write(0, 0x1100, 2) : bench.read(page::kAddrId);
+    ASSERT_TRUE(first.response == kOkay || first.data == 0U) << turn;
+    if (!writes && first.response == kOkay) {
+      ASSERT_EQ(first.data, 0x454E4305U) << turn;
+    }
+    const Answer second = bench.read(page::kAddrId);
+    ASSERT_EQ(second.response, kOkay) << turn;
+    ASSERT_EQ(second.data, 0x454E4305U) << turn;
   }
 }
 
