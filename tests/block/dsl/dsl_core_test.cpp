@@ -11,6 +11,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <vector>
 
 #include "Vdsl_core.h"
 #include "sim/core/random.hpp"
@@ -437,6 +438,43 @@ TEST_P(DslCoreBlock, FramesAtRandom_AreThoseOfTheModel) {
   EXPECT_GT(seen.size(), 4U) << testing::PrintToString(seen);
   RecordProperty("records", static_cast<int>(records));
   RecordProperty("certain", static_cast<int>(certain));
+}
+
+// Two readers take turns at random, one on the byte map, one on the window, while the encoder
+// moves: what each of them reads between two first words is of one frame.
+TEST_P(DslCoreBlock, ReadersOfMapAndWindowInTurns_EachGetOneFrame) {
+  const std::uint64_t pairs = mb4test::number("MB4_DSL_PAIRS", 2'000);
+  start({});
+  encoder.faults = false;
+  while (!known && !HasFailure()) tick();
+  const auto words_of = [](unsigned group) {
+    std::vector<const WordOfRecord*> words;
+    for (const WordOfRecord& word : kWords) {
+      if (word.group == group) words.push_back(&word);
+    }
+    return words;
+  };
+  std::uint64_t moved = 0;
+  for (std::uint64_t pair = 0; pair < pairs && !HasFailure(); ++pair) {
+    SCOPED_TRACE(testing::Message() << "pair " << pair);
+    const std::array readers{words_of(random.below(3)), words_of(3 + random.below(3))};
+    std::array<std::size_t, 2> next{};
+    const std::uint64_t count = records;
+    const unsigned pause = random.below(4) == 0 ? 1200 : 60;  // a frame has 864 clocks
+    while (next[0] < readers[0].size() || next[1] < readers[1].size()) {
+      std::size_t who = random.below(2);
+      if (next[who] == readers[who].size()) who = 1 - who;
+      read_record(*readers[who][next[who]++]);
+      if (HasFailure()) return;
+      for (unsigned i = random.below(pause); i != 0 && !HasFailure(); --i) tick();
+    }
+    moved += records != count ? 1 : 0;
+  }
+  // A record came in between for a part of them, and most words have been compared.
+  EXPECT_GT(moved, pairs / 5);
+  EXPECT_GT(checked, pairs * 4);
+  RecordProperty("pairs", static_cast<int>(pairs));
+  RecordProperty("moved", static_cast<int>(moved));
 }
 
 // Each address before the first link ends its start, and while nobody answers.

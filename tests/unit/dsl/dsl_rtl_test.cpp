@@ -180,6 +180,7 @@ void expect_frames_of_the_ramp(double metres, unsigned frames) {
     }
     side.bus->write(page::kAddrIrqStatus, 0x1F, 0xF);
     const std::uint64_t now = read(page::kAddrPosLo);
+    ASSERT_FALSE(side.level("irq_o"));  // cleared
     const std::uint32_t count = read(page::kAddrFrameCount);
     const bool lost = page::FRAME_POS_LOST::get(read(page::kAddrFrameStatus)) != 0;
     if (!lost) {
