@@ -1,14 +1,14 @@
 # SPDX-FileCopyrightText: 2026 The openmb4 authors
 # SPDX-License-Identifier: Apache-2.0
-"""Masters as LiteX modules: the iC-MB4-compatible one on Wishbone or AXI4-Lite (docs/buses.md), and biss_clb
-(docs/clb.md).
+"""Masters as LiteX modules: the iC-MB4-compatible one on Wishbone or AXI4-Lite (docs/buses.md), biss_clb
+(docs/clb.md) and dsl_axil (docs/dsl.md).
 
     self.mb4 = Mb4(platform, platform.request("encoder"), features="single")
     self.bus.add_slave("mb4", self.mb4.bus, SoCRegion(size=Mb4.SIZE, cached=False))
     if self.irq.enabled:
         self.irq.add("mb4")
 
-BissClb goes into a SoC in the same way.
+BissClb and DslAxil go into a SoC in the same way.
 """
 
 import sys
@@ -127,4 +127,35 @@ class BissClb(LiteXModule):
         else:
             platform.add_source(str(verilog), language="verilog")
         self.specials += Instance("biss_clb", **ports)
+        self.ev = interrupt_of(self.irq)
+
+
+class DslAxil(LiteXModule):
+    """dsl_axil; its bus is in the clock domain "sys", which need not know the other one. pads: out, en, in_.
+
+    core           clock domain of 75 MHz, give or take 100 ppm, for the line. Give the tool the lines of
+                   rtl/dsl/constraints
+    sdk_map        the registers as the published firmware has them
+    verilog        plain Verilog of the top (tools/synth/plain_verilog.py), for tools that do not read SystemVerilog; the
+                   map then is that of the file. None: the RTL of this repository
+    """
+
+    SIZE = 0x1000
+
+    def __init__(self, platform, pads, core="dsl", sdk_map=False, verilog=None):
+        self.irq = Signal()
+        self.link = Signal()
+        self.sample_edge = Signal()      # high for a clock of the core: the encoder samples now
+        self.position_ready = Signal()   # ... its position stands in the registers
+        self.bus = axi.AXILiteInterface(data_width=32, address_width=12)
+        ports = {"i_s_axi_aclk": ClockSignal("sys"), "i_s_axi_aresetn": ~ResetSignal("sys"), "i_clk_i": ClockSignal(core),
+                 "i_rst_ni": ~ResetSignal(core), "o_irq_o": self.irq, "o_link_o": self.link,
+                 "o_sample_edge_o": self.sample_edge, "o_position_ready_o": self.position_ready,
+                 "o_dsl_out_o": pads.out, "o_dsl_en_o": pads.en, "i_dsl_in_i": pads.in_, **axi_lite_ports(self.bus)}
+        if verilog is None:
+            ports["p_SDK_MAP"] = int(sdk_map)
+            add_rtl(platform, project.listed(project.MASTERS["dsl"].list))
+        else:
+            platform.add_source(str(verilog), language="verilog")
+        self.specials += Instance("dsl_axil", **ports)
         self.ev = interrupt_of(self.irq)

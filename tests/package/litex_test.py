@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The openmb4 authors
 # SPDX-License-Identifier: Apache-2.0
-"""The SoCs of examples/litex, the chip on both buses and biss_clb, made by LiteX without a network and run in Icarus
+"""The SoCs of examples/litex, the chip on both buses, biss_clb and dsl_axil, made by LiteX without a network and run in Icarus
 around the plain Verilog; Yosys reads them around the RTL. Planted faults are reported.
 
   litex_test.py PYTHON FOLDER    PYTHON has LiteX; FOLDER is for what the tools leave
@@ -24,10 +24,14 @@ import project  # noqa: E402
 # Name: master, bus, top, preset or None, bench, identity.
 SOCS = {"wishbone": ("mb4", "wishbone", "mb4_wb", "single", "litex_bench.v", 0x454E4301),
         "axi-lite": ("mb4", "axi-lite", "mb4_axil", "reader", "litex_bench.v", 0x454E4301),
-        "clb": ("clb", "axi-lite", "biss_clb", None, "litex_clb_bench.v", 0x454E4304)}
-CLB_FEATURES = 1   # the watchdog
+        "clb": ("clb", "axi-lite", "biss_clb", None, "litex_clb_bench.v", 0x454E4304),
+        "dsl": ("dsl", "axi-lite", "dsl_axil", None, "litex_dsl_bench.v", 0x454E4305)}
+FEATURES = {"clb": 1,      # the watchdog
+            "dsl": 0x126}  # one line, tracking, strict code, recovery
+# Of the device, as black boxes.
+CELLS = "read_verilog -lib +/ecp5/cells_sim.v +/ecp5/cells_bb.v"
 # A port with another name, and data with a wrong bit.
-FAULTS = (("name of a port", r"\bsl1?_i\b", "sl3_i"),
+FAULTS = (("name of a port", r"\b(sl1?|dsl_in)_i\b", "sl3_i"),
           ("bit of the data", r"(?m)^(\s*assign (?:wb_dat_o|s_axi_rdata) = )(.*);$", r"\1 (\2) ^ 32'h10;"))
 
 
@@ -45,10 +49,10 @@ def soc(python, folder, name, *arguments):
 def run(name, folder, verilog, origin, status):
     """What Icarus says; "good" at the end if nothing is wrong."""
     _, _, _, preset, bench, identity = SOCS[name]
-    features = project.presets()[preset] if preset else CLB_FEATURES
+    features = project.presets()[preset] if preset else FEATURES[name]
     words = {"Origin": origin, "EvStatus": status, "Identity": identity, "Features": features}
     # LiteX writes processes that read what they write by <=: Icarus would never end one, Yosys takes them apart.
-    script = (f"read_verilog soc.v {verilog}; hierarchy -check -top soc; proc; opt_clean; write_verilog -noattr plain.v")
+    script = (f"{CELLS}; read_verilog soc.v {verilog}; hierarchy -check -top soc; proc; opt_clean; write_verilog -noattr plain.v")
     code, text = project.run([project.tool("yosys"), "-p", script], cwd=folder / "gateware")
     if code != 0 or "Resizing" in text:
         return text
@@ -89,7 +93,7 @@ def main():
         soc(python, place / "rtl", name)
         gateware = place / "rtl" / "gateware"
         script = (gateware / "soc.ys").read_text(encoding="utf-8")
-        (gateware / "check.ys").write_text(re.sub(r"(?ms)^synth_ecp5.*", "hierarchy -check -top soc\n", script),
+        (gateware / "check.ys").write_text(re.sub(r"(?ms)^synth_ecp5.*", f"{CELLS}\nhierarchy -check -top soc\n", script),
                                            encoding="utf-8")
         code, text = project.run([project.tool("yosys"), "-q", "check.ys"], cwd=gateware)
         if code != 0 or "synth_ecp5" not in script:

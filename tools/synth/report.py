@@ -3,11 +3,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """Synthesis for iCE40 (placed, routed, packed), ECP5 and Xilinx 7 (area): docs/resources.md.
 
-  report.py FOLDER [--check|--mb4|--axi|--clb|--presets]
+  report.py FOLDER [--check|--mb4|--axi|--presets|--sibling TOP]
                                writes docs/resources.md; FOLDER is for what the tools leave.
                                --check: no file, but fails if mb4_core does not reach MIN_MHZ on
-                               the HX8K with one seed. --axi, --clb: only the part about that master anew;
-                               --mb4: all but these parts; --presets: only the part about presets
+                               the HX8K with one seed. --axi: only the part about biss_axi anew; --sibling:
+                               that about biss_clb, biss_pru or dsl_axil; --mb4: all but these parts;
+                               --presets: only the part about presets
 """
 
 import json
@@ -15,6 +16,7 @@ import re
 import subprocess
 import sys
 from pathlib import Path
+from typing import NamedTuple
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE))
@@ -36,6 +38,24 @@ FAMILIES = {
 }
 
 
+class Sibling(NamedTuple):
+    """A master of one line with a bus."""
+    room: str
+    what: str                # on the page
+    most: int                # LUT4 of an iCE40
+    mhz: int                 # on an HX8K
+    parameters: dict = {}
+    flags: str = ""          # of synth_ice40
+    seeds: tuple = SEEDS
+
+
+SIBLINGS = {
+    "biss_clb": Sibling("clb", "[`biss_clb`](clb.md) with its page of identity, interrupt and time.", 650, 100),
+    "biss_pru": Sibling("pru", "[`biss_pru`](pru.md) with a clock of 80 MHz.", 1100, 80, {"ClockHz": 80_000_000}),
+    "dsl_axil": Sibling("dsl", "[`dsl_axil`](dsl.md) with a bus clock of its own and, on iCE40, `synth_ice40 -abc2`; "
+                        "five seeds.", 1600, 75, {}, "-abc2", (1, 2, 3, 4, 5)),
+}
+
 AXI_CHANNELS = (1, 4, 16)
 AXI_LARGE = 16  # takes long: one seed, and iCE40 only
 
@@ -43,8 +63,8 @@ AXI_LARGE = 16  # takes long: one seed, and iCE40 only
 def files(top):
     if top.startswith("biss_axi"):
         return project.rtl_files("axi") + [HERE / "tops" / "biss_axi_narrow.sv"]
-    if top == "biss_clb":
-        return project.rtl_files("clb")
+    if top in SIBLINGS:
+        return project.rtl_files(SIBLINGS[top].room)
     return project.rtl_files() + [HERE / "tops" / "mb4_parallel.sv"]
 
 
@@ -71,13 +91,13 @@ def count(cells, pattern):
     return sum(number for cell, number in cells.items() if re.search(pattern, cell))
 
 
-def route(top, folder, device, seed):
+def route(top, folder, device, seed, mhz=50):
     """MHz of clk and of the host's clock; ns from MOSI to SCLK's rising edge, and from SCLK's falling edge to MISO, both
     without the delay of SCLK. None where it does not fit."""
     name = f"{device.lower()}_{seed}"
     status, text = project.run(
         [project.tool("nextpnr-ice40"), *DEVICES[device], "--json", "top.json", "--seed", str(seed),
-         "--freq", "50", "--pcf-allow-unconstrained", "--timing-allow-fail", "--asc", f"{name}.asc",
+         "--freq", str(mhz), "--pcf-allow-unconstrained", "--timing-allow-fail", "--asc", f"{name}.asc",
          "--report", f"{name}.json", "--quiet"], cwd=folder)
     if status != 0:
         if re.search(r"[Uu]nable to place|no BELs remaining|Unable to find|IO.*exceed", text):
@@ -157,6 +177,7 @@ def presets(folder):
 
 
 AXI_HEAD = "## biss_axi"
+LAST_HEAD = "## What takes the space"
 
 
 def axi(folder):
@@ -189,25 +210,36 @@ def axi(folder):
     return lines
 
 
-CLB_HEAD = "## biss_clb"
+def sibling_size(top, folder):
+    """LUT4, flops, block RAMs of an iCE40; folder/top.json is the netlist."""
+    one = SIBLINGS[top]
+    stat = synthesise("synth_ice40", top, folder, f"{one.flags} -json top.json", one.parameters)
+    cells = stat["design"]["num_cells_by_type"]
+    return cells.get("SB_LUT4", 0), count(cells, "^SB_DFF"), count(cells, "^SB_RAM40")
 
 
-def clb(folder):
-    """The part of the page about biss_clb."""
-    lines = [CLB_HEAD, "", "[`biss_clb`](clb.md) with its page of identity, interrupt and time.", "",
+def sibling_speed(top, folder):
+    """MHz of the core's clock with each seed, of the netlist in the folder."""
+    one = SIBLINGS[top]
+    return [route(top, folder, "HX8K", seed, one.mhz)["core"] for seed in one.seeds]
+
+
+def sibling(top, folder):
+    """The part of the page about a sibling."""
+    one, place = SIBLINGS[top], folder / top
+    lines = [f"## {top}", "", one.what, "",
              "| LUT4 | flops | block RAM | HX8K clk_i / MHz | ECP5 LUT | ECP5 flops | Xilinx 7 LUT | Xilinx 7 flops |",
              "|---|---|---|---|---|---|---|---|"]
-    place = folder / "clb"
-    stat = synthesise("synth_ice40", "biss_clb", place / "ice40", "-json top.json")
-    cells = stat["design"]["num_cells_by_type"]
-    row = [cells.get("SB_LUT4", 0), count(cells, "^SB_DFF"), count(cells, "^SB_RAM40"),
-           mhz([route("biss_clb", place / "ice40", "HX8K", seed) for seed in SEEDS], "core")]
+    row = [*sibling_size(top, place / "ice40")]
+    found = sibling_speed(top, place / "ice40")
+    row.append(f"{min(found):.0f}..{max(found):.0f}")
     for family, (command, lut, flop, _, _) in FAMILIES.items():
-        stat = synthesise(command, "biss_clb", place / family.replace(" ", "_"), "-flatten" if "xilinx" in command else "")
+        stat = synthesise(command, top, place / family.replace(" ", "_"), "-flatten" if "xilinx" in command else "",
+                          one.parameters)
         cells = stat["design"]["num_cells_by_type"]
         row += [count(cells, lut), count(cells, flop)]
     lines.append("| " + " | ".join(map(str, row)) + " |")
-    print(lines[-1], flush=True)
+    print(f"{top}: {lines[-1]} {', '.join(f'{value:.1f}' for value in found)}", flush=True)
     return lines
 
 
@@ -243,7 +275,7 @@ def page(folder, siblings):
             lines.append(f"| `{top}` | {family} | {count(cells, lut)} | {count(cells, flop)} | "
                          f"{count(cells, ram)} | {cells.get(carry, 0)} |")
             print(lines[-1], flush=True)
-    lines += ["", *siblings, "", "## What takes the space", "",
+    lines += ["", *siblings, "", LAST_HEAD, "",
               "`mb4_core` on iCE40, by the names of the cells after optimisation: a LUT that serves "
               "two modules counts for the one that names it.", "",
               "| instance | LUT4 | flops | block RAM |", "|---|---|---|---|"]
@@ -255,7 +287,9 @@ def page(folder, siblings):
 
 
 def with_part(text, lines):
-    """The page with one part anew; lines[0] is its title, which the page has already."""
+    """The page with one part anew, or behind the other masters; lines[0] is its title."""
+    if f"\n{lines[0]}\n" not in text:
+        return text.replace(LAST_HEAD, "\n".join(lines) + f"\n\n{LAST_HEAD}")
     before, _, after = text.partition(f"{lines[0]}\n")
     return before + "\n".join(lines) + "\n\n" + after[after.index("## "):]
 
@@ -265,7 +299,7 @@ def main():
     parser.add_argument("folder", type=parser.folder)
     parser.add_argument("--check", action="store_true")
     parser.add_argument("--axi", action="store_true")
-    parser.add_argument("--clb", action="store_true")
+    parser.add_argument("--sibling", choices=SIBLINGS)
     parser.add_argument("--mb4", action="store_true")
     parser.add_argument("--presets", action="store_true")
     arguments = parser.parse_args()
@@ -285,13 +319,14 @@ def main():
         text = with_part(text, presets(folder))
     elif arguments.axi:
         text = with_part(text, axi(folder))
-    elif arguments.clb:
-        text = with_part(text, clb(folder))
+    elif arguments.sibling:
+        text = with_part(text, sibling(arguments.sibling, folder))
     elif arguments.mb4:
         after = text.partition(f"{AXI_HEAD}\n")[2]
-        text = page(folder, [AXI_HEAD, *after[:after.index("\n## What takes")].splitlines()])
+        text = page(folder, [AXI_HEAD, *after[:after.index(f"\n{LAST_HEAD}")].splitlines()])
     else:
-        text = page(folder, [*axi(folder), "", *clb(folder)])
+        parts = [axi(folder), *(sibling(top, folder) for top in SIBLINGS)]
+        text = page(folder, [line for part in parts for line in ("", *part)][1:])
     path.write_text(text, encoding="utf-8")
 
 
