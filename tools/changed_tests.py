@@ -5,11 +5,11 @@
 
   changed_tests.py BUILD [--all]
 
-A test is left alone only if everything is as it was before this script saw it pass: its program after
-the build, its script with the files beside it, the files and folders that its command names, and
-what programs read (examples, data of the tests). BUILD/Testing/passed.json keeps that. The program
-that tests the parts of a changed room comes first, before the rest is built. The first failure
-ends the run; --all goes on. Suites that run for minutes are left out, and named.
+A test is left alone only if everything is as it was before this script saw it pass: its program after the build with
+the libraries that it loads, its script with the files beside it, the files and folders that its command names, and
+what programs read (examples, data of the tests). BUILD/Testing/passed.json keeps that. The program that tests the
+parts of a changed room comes first, before the rest is built. The first failure ends the run; --all goes on. Suites
+that run for minutes are left out, and named.
 """
 
 import argparse
@@ -72,6 +72,16 @@ def data_of_programs(digests):
     return digests.of(ROOT / "docs" / "driver.md") + hashlib.sha256(text.encode()).hexdigest()
 
 
+def digest_of_built(path, build):
+    """Of a file of the build, with the libraries there that it names."""
+    if not path.is_file():
+        return ""
+    text = path.read_bytes()
+    loaded = [library.read_bytes() for library in sorted((build / "lib").glob("*.so"))
+              if library.stem.encode() in text]
+    return hashlib.sha256(b"".join([text, *loaded])).hexdigest()
+
+
 def digest_of(job, build, digests, data):
     parts = [" ".join(job["command"]), data]
     for word in job["command"]:
@@ -79,7 +89,7 @@ def digest_of(job, build, digests, data):
         if not path.is_absolute() or not path.exists():
             continue
         if path.is_relative_to(build):
-            parts.append(hashlib.sha256(path.read_bytes()).hexdigest() if path.is_file() else "")
+            parts.append(digest_of_built(path, build))
         elif path.is_relative_to(ROOT):
             parts.append(digests.of(path.parent if path.suffix in (".py", ".sh") else path))
     return hashlib.sha256("\n".join(parts).encode()).hexdigest()

@@ -114,5 +114,95 @@ TEST(PruHost, ProcTimeMaxWhileAFrameWaits_CountsFromTheNextOne) {
   }
 }
 
+// The next interrupt; nothing is read.
+void wait_for_frame(PruSim& pru) {
+  pru.write(prureg::kAddrIrqStatus, 0x1F);
+  const sim::Pin irq = *pru.simulator.pin_by_name("irq_o");
+  EXPECT_TRUE(pru.simulator.run_while_waiting([&] { return pru.simulator.pin(irq); },
+                                              pru.simulator.now() + 5'000 * sim::kPsPerUs));
+}
+
+// Reading POS_HI keeps POS_LO for one read of it, whatever frames come in between and whatever else
+// is read.
+TEST(PruHost, PosHi_KeepsPosLoForOneRead) {
+  PruSim pru(pru_scenario(encoder(50, "source = \"ramp\"\nstart = 0x2_FFFF_FF00\nstep = 77\n")));
+  const auto position = [&pru] { return *pru.simulator.slave(1)->sent_word() >> 2U; };
+  pru.start(50, 8, 5, 150);
+  for (unsigned i = 0; i < 8; ++i) {
+    const std::uint64_t before = position();
+    EXPECT_EQ(pru.read(prureg::kAddrPosHi), before >> 32U);
+    for (unsigned frames = i % 3; frames != 0; --frames) wait_for_frame(pru);
+    pru.read(prureg::kAddrStatus);
+    EXPECT_EQ(pru.read(prureg::kAddrPosLo), before & 0xFFFF'FFFFU) << i;
+    EXPECT_EQ(pru.read(prureg::kAddrPosLo), position() & 0xFFFF'FFFFU) << i;
+    wait_for_frame(pru);
+  }
+}
+
+// R-P20 and R-P13: lengths out of range, as the edges of MA tell them.
+TEST(PruHost, LengthsOutOfRange_ActAsTheNearestThatFit) {
+  struct Row {
+    unsigned data, tail, bits;  // bits: of position, nE, nW and CRC
+  };
+  for (const Row& row :
+       {Row{0, 0, 1}, Row{0, 8, 9}, Row{1, 8, 9}, Row{20, 32, 52}, Row{20, 33, 52},
+        Row{20, 255, 52}, Row{55, 8, 63}, Row{56, 8, 63}, Row{64, 8, 63}, Row{255, 8, 63},
+        Row{63, 0, 63}, Row{64, 0, 63}, Row{128, 0, 63}, Row{255, 255, 63}}) {
+    PruSim pru(pru_scenario(encoder(53)));
+    pru.start(row.data, row.tail, 5, 200);
+    const PruFrame frame = pru.frame();
+    EXPECT_EQ(frame.ma_rises, 5 + row.bits + frame.processing()) << row.data << ' ' << row.tail;
+  }
+}
+
+// A byte without its strobe keeps its value, also where a register has one byte.
+TEST(PruHost, ByteWithoutItsStrobe_KeepsItsValue) {
+  PruSim pru(pru_scenario(encoder(12)));
+  pru.start(12, 8, 5);
+  pru.write(prureg::kAddrRun, 0, 0xE);
+  pru.write(prureg::kAddrIrqEnable, 0, 0xE);
+  EXPECT_EQ(pru.read(prureg::kAddrRun), 1U);
+  EXPECT_EQ(pru.read(prureg::kAddrIrqEnable), prureg::FRAME_ENDED_ENABLE::kMask);
+  wait_for_frame(pru);
+  pru.write(prureg::kAddrIrqStatus, 0x1F, 0xE);
+  EXPECT_NE(pru.read(prureg::kAddrIrqStatus) & prureg::FRAME_ENDED::kMask, 0U);
+}
+
+// Between two triggers, and behind the end of RUN, no event comes.
+TEST(PruHost, BetweenTwoTriggers_NoEvent) {
+  PruSim pru(pru_scenario(encoder(12)));
+  pru.start(12, 8, 5, 1000);
+  pru.frame();
+  pru.simulator.advance(300 * sim::kPsPerUs);
+  EXPECT_EQ(pru.read(prureg::kAddrIrqStatus), 0U);
+  pru.write(prureg::kAddrRun, 0);
+  pru.write(prureg::kAddrIrqStatus, 0x1F);
+  pru.simulator.advance(2'000 * sim::kPsPerUs);
+  EXPECT_EQ(pru.read(prureg::kAddrIrqStatus), 0U);
+}
+
+// FREQUENCY acts from the frame two behind the one that it was written in, also where triggers wait
+// already.
+TEST(PruHost, FrequencyWhileTriggersWait_ActsTwoFramesLater) {
+  PruSim pru(pru_scenario(encoder(12)));
+  pru.start(12, 8, 2, 10);
+  pru.frame();
+  std::uint64_t before = 0;
+  for (unsigned frame = 0; frame < 12; ++frame) {
+    wait_for_frame(pru);
+    const std::uint64_t now = pru.simulator.clk_cycles();
+    if (frame == 5) {  // the next frame runs: it is still one of 2 MHz
+      pru.write(prureg::kAddrLengths, prureg::DATA_LENGTH::of(12) | prureg::CRC_ERR_WAR::of(8) |
+                                          prureg::FREQUENCY::of(10));
+    }
+    // About 25 periods, and 27 us.
+    const double periods = static_cast<double>(now - before - 27 * kMhz) / kMhz;
+    if (frame > 1) {
+      EXPECT_NEAR(periods * (frame > 6 ? 10 : 2), 25.5, 1) << frame;
+    }
+    before = now;
+  }
+}
+
 }  // namespace
 }  // namespace mb4test
