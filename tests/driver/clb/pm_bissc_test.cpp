@@ -385,6 +385,30 @@ TEST_F(PmBissc, CallsTwiceAndBrokenFrames_DoNotSendAWrongBit) {
   EXPECT_EQ(reg.rxData, 0x3CU);
 }
 
+// MA is the clock divided by 2 * div; values outside 1 to 2048 act as the next one.
+TEST_F(PmBissc, Divider_IsThatOfMa) {
+  for (const std::uint32_t div : {0U, 1U, 2U, 3U, 10U, 2047U, 2048U, 2049U, 0xFFFF'FFFFU}) {
+    program_begin(0, 18, 6, 3, 0, kHalf);
+    PM_bissc_setFreq(div);
+    PM_bissc_setupSCDTransaction(&scd);
+    PM_bissc_startOperation(&scd, div);
+    std::vector<std::uint64_t> rises;
+    bool before = bench.ma();
+    for (const std::uint64_t begin = bench.now; rises.size() < 4 && bench.now - begin < 30'000;) {
+      bench.clock();
+      if (bench.ma() && !before) rises.push_back(bench.now);
+      before = bench.ma();
+    }
+    ASSERT_EQ(rises.size(), 4U) << div;
+    const std::uint64_t period = 2ULL * std::clamp(div, 1U, 2048U);
+    for (std::size_t i = 1; i < rises.size(); ++i) {
+      EXPECT_EQ(rises[i] - rises[i - 1], period) << div;
+    }
+    PM_bissc_haltOperation();
+    bench.clocks(20'000);
+  }
+}
+
 }  // namespace
 
 extern "C" {
