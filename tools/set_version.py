@@ -30,6 +30,8 @@ VERSION_COPIES = {
     "drivers/include/mb4/version.hpp":
         r"VersionMajor = (\d+);[^;]*VersionMinor = (\d+);[^;]*VersionPatch = (\d+);",
     "drivers/esp_idf/openmb4/idf_component.yml": r'(?m)^version: "(\d+)\.(\d+)\.(\d+)"$',
+    "drivers/rust/openmb4/Cargo.toml": r'(?m)^version = "(\d+)\.(\d+)\.(\d+)"$',
+    "drivers/rust/openmb4/Cargo.lock": r'(?m)^name = "openmb4"\nversion = "(\d+)\.(\d+)\.(\d+)"$',
 }
 
 

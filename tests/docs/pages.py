@@ -28,7 +28,7 @@ from pathlib import Path
 TIMEOUT_S = 200
 REASONS = ("is a synopsis", "needs hardware", "is the test command itself", "runs long",
            "installs packages")
-CODE = ("c", "c++", "cmake", "cpp", "python", "systemverilog", "tcl",
+CODE = ("c", "c++", "cmake", "cpp", "python", "rust", "systemverilog", "tcl",
         "toml", "vhdl")  # languages without commands
 PROGRAMS = ("apt-get", "arm-none-eabi-g++", "cc", "cmake", "ctest", "echo", "fusesoc", "gtkwave",
             "icepack", "iceprog", "mb4sim", "nextpnr-ice40", "pip", "pkg-config", "python3",

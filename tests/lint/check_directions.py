@@ -63,6 +63,7 @@ MAY_USE = {
     "drivers/c/": (*DRIVER, "regmap/"),
     "drivers/arduino/": (*DRIVER, "regmap/"),
     "drivers/zephyr/": (*DRIVER, "regmap/"),
+    "drivers/rust/": (*DRIVER, "regmap/"),
     "drivers/include/biss_c.h": (),
     "drivers/include/pm_bissc_include.h": (),
     "drivers/include/biss_pru.h": ("regmap/",),

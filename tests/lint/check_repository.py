@@ -276,14 +276,15 @@ def self_test():
                              ("x\n", False, 0), (None, True, 1)):
         expect(count, runnable_findings({"a": text}, lambda _, bit=bit: bit), f"run bit of {text}")
 
-    *cores, header, component = VERSION_COPIES
+    *cores, header, component, manifest, lock = VERSION_COPIES
     core, axi_core, *others = cores
     ipxact, changelog = "any" + IPXACT[0], *RELEASE
     good = {VERSION_FILE: "project(openmb4 VERSION 1.2.3 LANGUAGES C)\n",
             core: "name: openmb4:ip:mb4:1.2.3\n", axi_core: "name: openmb4:ip:biss_axi:1.2.3\n",
             **dict.fromkeys(others, "name: openmb4:ip:other:1.2.3\n"),
             header: "kVersionMajor = 1;\nint kVersionMinor = 2;\nint kVersionPatch = 3;\n",
-            component: 'version: "1.2.3"\n',
+            component: 'version: "1.2.3"\n', manifest: 'version = "1.2.3"\n',
+            lock: 'name = "cc"\nversion = "1.4.0"\n\nname = "openmb4"\nversion = "1.2.3"\n',
             ipxact: "<ipxact:version>1.2.3</ipxact:version>\n",
             changelog: "## [Unreleased]\n\n## [1.2.3] - 2026-01-01\n\n## [1.2.2] - 2025-01-01\n",
             "a.txt": "package==1.2.3 11.2.3 1.2.34 1.2.3.4\n", "b.bin": None}
@@ -292,7 +293,7 @@ def self_test():
     for name, text in ((VERSION_FILE, "project(openmb4)"), (core, ""), (header, ""), (component, ""), (ipxact, ""),
                        ("a.txt", "Version 1.2.3."), ("a.h", '"1.2.3"'),
                        *((name, good[name].replace("3", "4", 1))
-                         for name in (*cores, header, component, ipxact, changelog))):
+                         for name in (*cores, header, component, manifest, lock, ipxact, changelog))):
         expect(1, version_findings({**good, name: text}), f"version in {name}: {text}")
 
     rooms = {"README.md": "`unit/`", "docs/README.md": "[speed](speed.md)", "tests/unit/a.py": "",

@@ -70,7 +70,7 @@ install(FILES ${MB4_ROOT}/LICENSE ${MB4_ROOT}/README.md ${MB4_ROOT}/CHANGELOG.md
               ${MB4_ROOT}/CONTRIBUTING.md
   DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT tool)
 install(DIRECTORY ${MB4_ROOT}/docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT tool)
-foreach(folder sim drivers drivers/arduino)
+foreach(folder sim drivers drivers/arduino drivers/rust/openmb4)
   file(GLOB pages CONFIGURE_DEPENDS ${MB4_ROOT}/${folder}/*.md)
   install(FILES ${pages} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder} COMPONENT tool)
 endforeach()
