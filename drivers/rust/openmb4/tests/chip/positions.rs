@@ -54,6 +54,15 @@ fn transfers_are_those_of_the_comment() {
 }
 
 #[test]
+fn the_first_read_drops_what_waits() {
+    let mut drive = Drive::new(&CONFIG, "");
+    drive.next().unwrap();
+    drive.encoder.start(&mut drive.chip.clone()).unwrap();
+    assert_eq!(drive.next(), Err(Error::NoData));
+    assert_eq!(drive.next().unwrap().position, drive.expected());
+}
+
+#[test]
 fn the_last_position_is_followed_by_the_first() {
     let chip = Chip::new("data_bits = 28\nsource = \"ramp\"\nstart = 0x3FFFFFD\nstep = 1", "");
     let mut encoder = Encoder::new(chip.clone(), &CONFIG).unwrap();
