@@ -3,12 +3,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """The Rust crate drivers/rust/openmb4.
 
-  rust_test.py style CRATE TARGET          formatted, no message of clippy, as short as promised
-  rust_test.py no_std CRATE TARGET         compiles for a Cortex-M0+, which has no std
-  rust_test.py chip CRATE TARGET LIBRARY   its tests on the simulated chip, LIBRARY is libmb4sim.so
+  rust_test.py style CRATE TARGET ...          formatted, no message of clippy, as short as promised
+  rust_test.py no_std CRATE TARGET ...         compiles for a Cortex-M0+, which has no std
+  rust_test.py chip CRATE TARGET LIBRARY ...   its tests on the simulated chip, LIBRARY is libmb4sim.so
 
-TARGET is the folder of what cargo makes. Nothing is fetched where cargo has its crates already. Exit
-status 77: no cargo; crates.io cannot be reached; no std library for the Cortex-M0+ or no C compiler.
+TARGET is the folder of what cargo makes. Further folders are those of the headers, which
+`tools/test.sh --changed` finds in the command. Nothing is fetched where cargo has the crates already.
+Exit status 77: no cargo; crates.io cannot be reached; no library for the Cortex-M0+ or no C compiler.
 """
 
 import os
@@ -86,10 +87,10 @@ def no_std(crate):
 
 
 def main():
-    mode, folder, target, *library = sys.argv[1:]
+    mode, folder, target, *more = sys.argv[1:]
     crate = Crate(folder, target)
     if mode == "chip":
-        crate.need("test", "--locked", "--offline", "--features", "simulator", MB4SIM_LIB=str(Path(library[0]).resolve().parent))
+        crate.need("test", "--locked", "--offline", "--features", "simulator", MB4SIM_LIB=str(Path(more[0]).resolve().parent))
     else:
         {"style": style, "no_std": no_std}[mode](crate)
 
