@@ -20,6 +20,7 @@ from pathlib import Path
 
 LINES = {"src/*.rs": 300, "examples/*.rs": 40}
 CORE = "thumbv6m-none-eabi"
+FETCH_S = 120
 
 
 def skip(why):
@@ -45,8 +46,12 @@ class Crate:
 
     def call(self, *arguments, **more):
         """Exit status and all text."""
-        done = subprocess.run(["cargo", *arguments], cwd=self.folder, env=self.environment | more, text=True, check=False,
-                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+        limit = FETCH_S if arguments[0] == "fetch" else None
+        try:
+            done = subprocess.run(["cargo", *arguments], cwd=self.folder, env=self.environment | more, text=True, check=False,
+                                  stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=limit)
+        except subprocess.TimeoutExpired:
+            return 1, f"cargo {arguments[0]}: no end after {limit} s"
         return done.returncode, done.stdout
 
     def need(self, *arguments, **more):
