@@ -71,7 +71,8 @@ module dsl_sample (
   // Edges.
   logic        zero_now;             // the first 0 of the first window
   logic        late;                 // ... too late
-  logic [9:0]  away;                 // of this sample from the one behind the place
+  logic [9:0]  away;                 // of the next sample from the one behind the place
+  logic        near_end_q, inside_q; // this sample; the next one behind the first 0 is inside
   logic        near_end;
   logic        ranged;
   logic        counts;
@@ -82,10 +83,9 @@ module dsl_sample (
   assign first_o  = start_i && !measured_q;
   assign zero_now = stream_i.valid && first_o && !found_q && !stream_i.levels[0];
   assign late     = stream_i.number >= {3'd0, TOO_LATE};
-  assign away     = stream_i.number + {3'b111, ~place_q[11:5]};
-  assign near_end = first_o && found_q && away[9:3] == NEAR_END;
-  assign ranged   = first_o ? zero_now || (found_q && away[9:3] <= NEAR_END)
-                            : away < RANGE || away[9:2] == 8'hFF;
+  assign away     = stream_i.number - {3'd0, place_q[11:5]};
+  assign near_end = first_o && found_q && near_end_q;
+  assign ranged   = first_o ? zero_now || (found_q && inside_q) : inside_q;
   assign counts   = stream_i.valid && ranged && stream_i.levels[0] != stream_i.levels[1]
                  && stream_i.number != 10'd0 && !count_q[6];
 
@@ -221,6 +221,8 @@ module dsl_sample (
       measured_q <= 1'b0;
       found_q    <= 1'b0;
       again_q    <= 1'b0;
+      near_end_q <= 1'b0;
+      inside_q   <= 1'b0;
       count_q    <= '0;
       rest_q     <= '0;
       quot_q     <= '0;
@@ -232,6 +234,9 @@ module dsl_sample (
       measured_q <= (measured_q || (done_o && start_i)) && !forget_i;
       found_q    <= found_d;
       again_q    <= again_d;
+      near_end_q <= !zero_now && away[9:3] == NEAR_END;
+      inside_q   <= zero_now || (first_o ? away[9:3] <= NEAR_END
+                                         : away < RANGE || away[9:2] == 8'hFF);
       count_q    <= count_d;
       rest_q     <= rest_d;
       quot_q     <= quot_d;
