@@ -25,8 +25,8 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 NEAREST = {"rtl": "block_test", "sim": "sim_unit_test", "drivers": "mb4_driver_test"}
 LEFT_OUT = re.compile(r"(Intel|Motorola|Package|DriverHost|DriverSweep|Docs|EdgeParts|Icarus|Canary)[.]|"
-                      r"Parts/ChipFuzz")
-LONG_LABELS = {"gate", "formal", "netlist", "nightly", "web", "bench", "python"}
+                      r"Parts/ChipFuzz|Python[.]Cocotb")
+LONG_LABELS = {"gate", "formal", "netlist", "nightly", "web", "bench"}
 
 
 def output(*command):
@@ -73,9 +73,10 @@ def data_of_programs(digests):
 
 
 def digest_of_built(path, build):
-    """Of a file of the build, with the libraries there that it names."""
-    if not path.is_file():
-        return ""
+    """Of a file of the build with the libraries there that it names, or of a folder's files."""
+    if path.is_dir():
+        inside = [] if path == build else sorted(each for each in path.rglob("*.*") if each.is_file())
+        return hashlib.sha256(b"".join(each.read_bytes() for each in inside if each.suffix != ".pyc")).hexdigest()
     text = path.read_bytes()
     loaded = [library.read_bytes() for library in sorted((build / "lib").glob("*.so"))
               if library.stem.encode() in text]

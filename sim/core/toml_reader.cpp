@@ -114,7 +114,8 @@ std::string syntax_error(std::string_view text, const std::string& name,
   return message;
 }
 
-// "; write cable_m = 10" where a string holds a number, and where a whole one is wanted as 3e6 or 2.0.
+// "; write cable_m = 10" where a string holds a number, and where a whole one is wanted as 3e6
+// or 2.0.
 std::string write_number(std::string_view key, const TomlValue& value) {
   constexpr double kExact = 9'007'199'254'740'992.0;  // 2^53: whole numbers up to it are exact
   std::string line;

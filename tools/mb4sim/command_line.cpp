@@ -52,7 +52,9 @@ CLI::Validator file_name() {
   return CLI::Validator(
       [](const std::string& text) {
         if (text.empty()) return std::string("a file name is needed");
-        if (text == "-") return std::string("'-' is taken for no pipe: give a file name (./- for one of this name)");
+        if (text == "-")
+          return std::string(
+              "'-' is taken for no pipe: give a file name (./- for one of this name)");
         return std::string();
       },
       "");

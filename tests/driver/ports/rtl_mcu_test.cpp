@@ -256,7 +256,8 @@ TEST_F(DriverMcu, Stm32Example_PrintsPositions) {
   EXPECT_EQ(inits, 0U);
 }
 
-// TIM2 of an F1, L0 or L1 keeps 16 bits of its reload register; CubeMX has 65535 where nobody set it.
+// TIM2 of an F1, L0 or L1 keeps 16 bits of its reload register; CubeMX has 65535 where nobody set
+// it.
 TEST_F(DriverMcu, Stm32ExampleWithA16BitTimer_SaysSo) {
   timer.ARR = 0xFFFFU;
   testing::internal::CaptureStdout();

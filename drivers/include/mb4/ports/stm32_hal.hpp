@@ -81,8 +81,8 @@ class HalSpiBus {
 #ifdef HAL_TIM_MODULE_ENABLED
 // A timer of 32 bits (often TIM2, TIM5) that counts microseconds: prescaler = its clock in MHz - 1,
 // counter period 0xFFFFFFFF, started by HAL_TIM_Base_Start(). It has no state, so several devices
-// and interrupts may share it. Ask fits() once: with a timer of 16 bits or another counter period it
-// wraps sooner than the driver takes for granted, which shows as false timeouts.
+// and interrupts may share it. Ask fits() once: with a timer of 16 bits or another counter period
+// it wraps sooner than the driver takes for granted, which shows as false timeouts.
 class TimerClock {
  public:
   static constexpr std::uint32_t kStepUs = 1;
