@@ -8,8 +8,8 @@
 A test is left alone only if everything is as it was before this script saw it pass: its program after the build with
 the libraries that it loads, its script with the files beside it, the files and folders that its command names, and
 what programs read (examples, data of the tests). BUILD/Testing/passed.json keeps that. The program that tests the
-parts of a changed room comes first, before the rest is built. The first failure ends the run; --all goes on. Suites
-that run for minutes are left out, and named.
+parts of a changed room comes first, then the tests of scripts, before the rest is built. The first failure ends the
+run; --all goes on. Suites that run for minutes are left out, and named.
 """
 
 import argparse
@@ -101,7 +101,7 @@ def program_job(program):
     return {"command": [str(program), "--gtest_brief=1"]}
 
 
-def jobs_of(build):
+def jobs_of(build, must_be_built=True):
     """Jobs: a GoogleTest program with all its tests, or a single test. And the suites left out."""
     listed = json.loads(output("ctest", "--test-dir", build, "--show-only=json-v1"))["tests"]
     jobs, left = {}, Counter()
@@ -110,6 +110,8 @@ def jobs_of(build):
         labels = {label for each in test["properties"] if each["name"] == "LABELS" for label in each["value"]}
         if LEFT_OUT.match(name) or labels & LONG_LABELS:
             left[name.split(".")[0]] += 1
+        elif command is None and not must_be_built:
+            continue
         elif command is None:
             sys.exit(f"changed_tests.py: {name}: its program is not built")
         elif f"--gtest_filter={name}" in command:
@@ -117,6 +119,12 @@ def jobs_of(build):
         else:
             jobs[name] = {"command": command, "ctest": True}
     return jobs, left
+
+
+def jobs_without_build(build):
+    """The tests of scripts that need nothing of the build, but for lint, which reads all."""
+    return {name: job for name, job in jobs_of(build, must_be_built=False)[0].items() if not name.startswith("Lint.")
+            and not any(Path(word).is_relative_to(build) for word in job["command"])}
 
 
 def run(name, job, build):
@@ -164,6 +172,8 @@ def main():
         if not build_targets(build, program):
             return 1
         attempt(program, program_job(build / "bin" / program))
+    for name, job in jobs_without_build(build).items():
+        attempt(name, job)
     if not failed or wanted.all:
         if not build_targets(build):
             return 1
