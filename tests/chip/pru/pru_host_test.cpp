@@ -3,7 +3,10 @@
 //
 // What the host tells the master and hears of it: RUN and its 40 us, the timer, triggers that are
 // lost, times, a limit that changes while a frame runs.
+#include <algorithm>
+#include <cstdint>
 #include <string>
+#include <utility>
 
 #include "tests/chip/pru/pru_sim.hpp"
 
@@ -181,27 +184,56 @@ TEST(PruHost, BetweenTwoTriggers_NoEvent) {
   EXPECT_EQ(pru.read(prureg::kAddrIrqStatus), 0U);
 }
 
+// Clocks from one change of the memory to the next one, while triggers wait: each frame starts at
+// once.
+class PruFramesInARow {
+ public:
+  explicit PruFramesInARow(PruSim& pru) : pru_(pru) { next(); }
+  std::uint64_t next() {
+    wait_for_frame(pru_);
+    const std::uint64_t before = std::exchange(now_, pru_.simulator.clk_cycles());
+    return now_ - before;
+  }
+
+ private:
+  PruSim& pru_;
+  std::uint64_t now_ = 0;
+};
+
 // FREQUENCY acts from the frame two behind the one that it was written in, also where triggers wait
-// already.
+// already, and from its first clock on.
 TEST(PruHost, FrequencyWhileTriggersWait_ActsTwoFramesLater) {
   PruSim pru(pru_scenario(encoder(12)));
   pru.start(12, 8, 2, 10);
   pru.frame();
-  std::uint64_t before = 0;
-  for (unsigned frame = 0; frame < 12; ++frame) {
+  PruFramesInARow frames(pru);
+  const std::uint64_t slow = frames.next();
+  EXPECT_NEAR(static_cast<double>(slow), (25.5 / 2 + 27) * kMhz, 0.5 * kMhz);  // 25 periods, 27 us
+  pru.write(prureg::kAddrLengths,
+            prureg::DATA_LENGTH::of(12) | prureg::CRC_ERR_WAR::of(8) | prureg::FREQUENCY::of(10));
+  EXPECT_EQ(frames.next(), slow);  // it was running
+  const std::uint64_t quick = frames.next();
+  EXPECT_NEAR(static_cast<double>(quick), (25.5 / 10 + 27) * kMhz, 0.1 * kMhz);
+  for (unsigned i = 0; i < 3; ++i) EXPECT_EQ(frames.next(), quick);
+}
+
+// OVERHEAD counts clocks behind the last sample, of which the first four always pass.
+TEST(PruHost, Overhead_MovesTheMemoryByClocks) {
+  std::uint64_t least = 0;
+  for (const unsigned overhead : {0U, 1U, 2U, 3U, 4U, 5U, 6U, 7U, 8U, 9U, 200U, 10'000U}) {
+    PruSim pru(pru_scenario(encoder(12)));
+    pru.write(prureg::kAddrOverhead, overhead);
+    pru.start(12, 8, 5, 200);
+    pru.frame();
+    const std::uint64_t rise = next_rise(pru);
     wait_for_frame(pru);
-    const std::uint64_t now = pru.simulator.clk_cycles();
-    if (frame == 5) {  // the next frame runs: it is still one of 2 MHz
-      pru.write(prureg::kAddrLengths, prureg::DATA_LENGTH::of(12) | prureg::CRC_ERR_WAR::of(8) |
-                                          prureg::FREQUENCY::of(10));
-    }
-    // About 25 periods, and 27 us.
-    const double periods = static_cast<double>(now - before - 27 * kMhz) / kMhz;
-    if (frame > 1) {
-      EXPECT_NEAR(periods * (frame > 6 ? 10 : 2), 25.5, 1) << frame;
-    }
-    before = now;
+    const std::uint64_t clocks = pru.simulator.clk_cycles() - rise;
+    if (overhead == 0) least = clocks;
+    EXPECT_EQ(clocks - least, std::max(overhead, 4U) - 4U) << overhead;
   }
+  // 24 periods from the first edge of MA to the last bit, the sample within its period, and some
+  // clocks.
+  EXPECT_NEAR(static_cast<double>(least), 24.5 / 5 * kMhz, 0.5 / 5 * kMhz + 10);
 }
 
 }  // namespace
