@@ -55,6 +55,24 @@ TEST(PruHost, Run_Waits40MicrosecondsAndStartsTheTimer) {
   }
 }
 
+// The first frame of each RUN has 1 MHz, whatever the frames of the one before had.
+TEST(PruHost, EachRun_BeginsAt1Mhz) {
+  PruSim pru(pru_scenario(encoder(12)));
+  for (unsigned turn = 0; turn < 3; ++turn) {
+    pru.write(prureg::kAddrRun, 0);
+    pru.write(prureg::kAddrLengths, 12U | 8U << 8U | 10U << 16U);
+    pru.write(prureg::kAddrRun, 1);
+    const std::uint64_t run = pru.simulator.clk_cycles();
+    std::uint64_t rise = next_rise(pru);
+    EXPECT_NEAR(static_cast<double>(rise - run), 41.0 * kMhz, 10) << turn;
+    for (unsigned i = 0; i < 10; ++i) {
+      EXPECT_EQ(next_rise(pru) - rise, kMhz) << turn;
+      rise += kMhz;
+    }
+    pru.simulator.advance(500 * sim::kPsPerUs);  // frames at 10 MHz
+  }
+}
+
 // LATCH_TIME is TIME_LOW of the first rising edge of MA.
 TEST(PruHost, LatchTime_IsTheTimeOfTheFirstEdge) {
   PruSim pru(pru_scenario(encoder(12)));
@@ -202,7 +220,7 @@ class PruFramesInARow {
 
 // FREQUENCY acts from the frame two behind the one that it was written in, also where triggers wait
 // already, and from its first clock on.
-TEST(PruHost, FrequencyWhileTriggersWait_ActsTwoFramesLater) {
+TEST(PruHost, FrequencyWhileTriggersWait_ActsTwoFramesLaterAndWhole) {
   PruSim pru(pru_scenario(encoder(12)));
   pru.start(12, 8, 2, 10);
   pru.frame();
