@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The openmb4 authors
 # SPDX-License-Identifier: Apache-2.0
-"""Runs the tests of the page: run.py PACKAGE PAGE [ARGUMENT of pytest...]. Exit status 77: what they need is missing."""
+"""Runs the tests of the page: run.py PACKAGE PAGE MB4SIM [ARGUMENT of pytest...]. Exit status 77: what they need is missing."""
 
 import importlib.util
 import os
@@ -14,7 +14,7 @@ MISSING += [name for name in ("chromium", "chromedriver") if shutil.which(name) 
 
 
 def main() -> int:
-    package, page = map(Path, sys.argv[1:3])
+    package, page, mb4sim = map(Path, sys.argv[1:4])
     if MISSING:
         print(f"skipped: no {', '.join(MISSING)}: tools/setup.sh test and tools/setup.sh web")
         return 77
@@ -27,8 +27,9 @@ def main() -> int:
     import pytest
     sys.path.insert(0, str(package))
     os.environ["MB4_WEB_PAGE"] = str(page.resolve())
+    os.environ["MB4_WEB_MB4SIM"] = str(mb4sim.resolve())
     return pytest.main(["-q", "-p", "no:cacheprovider", str(Path(__file__).parent / "page_test.py"),
-                        *sys.argv[3:]])
+                        *sys.argv[4:]])
 
 
 if __name__ == "__main__":

@@ -235,7 +235,8 @@ function(mb4_has_master out master)
   endif()
   set(${out} ${has} PARENT_SCOPE)
 endfunction()
-# mb4_tell_masters(TARGET VISIBILITY): defines MB4SIM_WITH_NAME as 1 or 0 for each master that has a switch.
+# mb4_tell_masters(TARGET VISIBILITY): defines MB4SIM_WITH_NAME as 1 or 0 for each master that has a switch, and
+# MB4SIM_ONE_MODEL.
 function(mb4_tell_masters target visibility)
   foreach(master IN LISTS MB4_MASTERS)
     if(MB4_MASTER_${master}_SWITCH)
@@ -245,6 +246,7 @@ function(mb4_tell_masters target visibility)
       target_compile_definitions(${target} ${visibility} MB4SIM_WITH_${name}=${has})
     endif()
   endforeach()
+  target_compile_definitions(${target} ${visibility} MB4SIM_ONE_MODEL=$<BOOL:${MB4_ONE_MODEL}>)
 endfunction()
 # mb4_leave_out(): leaves out every master that has a switch.
 macro(mb4_leave_out)
@@ -257,6 +259,7 @@ endmacro()
 option(MB4_FIRST "The shortest build: no AXI, no Wishbone, no smaller chips; slow waveforms, and 6 % slower runs" OFF)
 # Chips with fewer features that the simulator has beside the full one: drive, single, reader.
 set(MB4_PRESETS single CACHE STRING "Smaller chips of the simulator")
+option(MB4_ONE_MODEL "One model of each master: the chip without buses of words, biss_axi with one channel and without extras, biss_pru at 200 MHz" OFF)
 # For what needs no speed.
 set(MB4_QUICK -O1)
 if(MB4_FIRST)

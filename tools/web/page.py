@@ -14,23 +14,32 @@ from pathlib import Path
 
 HERE = Path(__file__).parent
 ROOT = HERE.parent.parent
-REGISTERS = ROOT / "regmap" / "generated" / "mb4"
+MASTERS = ("mb4", "axi", "clb", "pru")  # register maps
+KEYS = ("label", "ident", "address", "lsb", "width", "access", "codes", "names")  # of a field, what the page uses
 DOCUMENT = ROOT / "docs" / "browser.md"
 
 
-def addresses() -> dict:
+def addresses(header: str) -> dict:
     """{register: address}, as in the Python package (tools/python/openmb4/registers.py)."""
-    header = (REGISTERS / "mb4_regs.h").read_text(encoding="utf-8")
     found = {name: int(number, 16)
-             for name, number in re.findall(r"#define MB4_ADDR_(\w+) (0x\w+)U", header)}
-    base = found.pop("SLAVE_CFG")
+             for name, number in re.findall(r"#define \w+?_ADDR_(\w+) (0x\w+)U", header)}
     for name, offset in re.findall(r"#define MB4_(SLAVE_CFG_\w+)_OFFSET (\d+)U", header):
         for channel in range(8):
-            found[f"{name}{channel + 1}"] = base + 4 * channel + int(offset)
-    for name in ("SCDATA", "RDATA"):
+            found[f"{name}{channel + 1}"] = found["SLAVE_CFG"] + 4 * channel + int(offset)
+    found.pop("SLAVE_CFG", None)
+    for name in found.keys() & {"SCDATA", "RDATA"}:
         first = found.pop(name)
         found.update({f"{name}_BYTE{i + 1}": first + i for i in range(64)})
-    return found
+    return dict(sorted(found.items(), key=lambda one: one[1]))
+
+
+def registers(master: str) -> dict:
+    """The fields and addresses of a register map."""
+    generated = ROOT / "regmap" / "generated" / master
+    table = json.loads((generated / f"{master}_regs.json").read_text(encoding="utf-8"))
+    fields = table["fields"] + table["alternate_fields"]
+    return {"fields": [{key: field[key] for key in KEYS if field.get(key) not in (None, [])} for field in fields],
+            "addresses": addresses((generated / f"{master}_regs.h").read_text(encoding="utf-8"))}
 
 
 def help_text() -> str:
@@ -57,7 +66,6 @@ def help_text() -> str:
 def main() -> None:
     module, wasm, uplot, output = map(Path, sys.argv[1:])
     licence = (uplot / "LICENSE").read_text(encoding="utf-8").strip()
-    table = json.loads((REGISTERS / "mb4_regs.json").read_text(encoding="utf-8"))
     parts = {
         "uplot.css": (uplot / "dist" / "uPlot.min.css").read_text(encoding="utf-8"),
         "uplot.js": f"/*! uPlot\n{licence}\n*/\n"
@@ -65,11 +73,9 @@ def main() -> None:
         "help": help_text(),
         "openmb4.js": module.read_text(encoding="utf-8"),
         "openmb4.wasm": base64.b64encode(gzip.compress(wasm.read_bytes(), 9, mtime=0)).decode(),
-        "registers": json.dumps({kind: table[kind] for kind in ("fields", "alternate_fields")},
-                                separators=(",", ":")),
-        "addresses": json.dumps(addresses(), separators=(",", ":")),
+        "tables": json.dumps({master: registers(master) for master in MASTERS}, separators=(",", ":")),
     }
-    for name in ("style.css", "chip.js", "fields.js", "registers.js", "diagram.js", "files.js", "page.js"):
+    for name in ("style.css", "chip.js", "fields.js", "registers.js", "masters.js", "diagram.js", "files.js", "page.js"):
         parts[name] = (HERE / "page" / name).read_text(encoding="utf-8")
     for name, text in parts.items():
         if name != "openmb4.wasm" and "</script" in text:

@@ -1,12 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 #include <Vaxi_1.h>
-#include <Vaxi_4.h>
 #include <verilated.h>
 
 // Made by sim/model/signal_list.py; with PREFIX___024root.h.
 #include <Vaxi_1_wave.hpp>
+#if !MB4SIM_ONE_MODEL
+#include <Vaxi_4.h>
+
 #include <Vaxi_4_wave.hpp>
+#endif
 
 #include "sim/masters/axi/axi_makers.hpp"
 
@@ -17,11 +20,13 @@
 #define MB4_AXI_1_IN_PARTS
 #endif
 #undef MODEL_RUNS_WHOLE
+#if !MB4SIM_ONE_MODEL
 #include <Vaxi_4_edge.hpp>
 #ifndef MODEL_RUNS_WHOLE
 #define MB4_AXI_4_IN_PARTS
 #endif
 #undef MODEL_RUNS_WHOLE
+#endif
 #endif
 
 namespace mb4::sim {
@@ -42,6 +47,7 @@ using Steps1 = PartSteps<Vaxi_1, Edge1>;
 #else
 using Steps1 = WholeSteps<Vaxi_1>;
 #endif
+#if !MB4SIM_ONE_MODEL
 #ifdef MB4_AXI_4_IN_PARTS
 struct Edge4 {
   using Kept = axi_4::Kept;
@@ -57,15 +63,19 @@ using Steps4 = PartSteps<Vaxi_4, Edge4>;
 #else
 using Steps4 = WholeSteps<Vaxi_4>;
 #endif
+#endif
 
 }  // namespace
 
-std::unique_ptr<AxiModel> make_axi_in_parts(const ChipConfig& chip, unsigned channels,
+std::unique_ptr<AxiModel> make_axi_in_parts(const ChipConfig& chip,
+                                            [[maybe_unused]] unsigned channels,
                                             std::uint64_t seed) {
-  if (channels <= 1) {
-    return std::make_unique<VerilatedAxi<Vaxi_1, 1, Steps1, InsideAxi>>(chip, seed, false);
+#if !MB4SIM_ONE_MODEL
+  if (channels > 1) {
+    return std::make_unique<VerilatedAxi<Vaxi_4, 4, Steps4, InsideAxi>>(chip, seed, false);
   }
-  return std::make_unique<VerilatedAxi<Vaxi_4, 4, Steps4, InsideAxi>>(chip, seed, false);
+#endif
+  return std::make_unique<VerilatedAxi<Vaxi_1, 1, Steps1, InsideAxi>>(chip, seed, false);
 }
 
 }  // namespace mb4::sim

@@ -34,6 +34,9 @@ constexpr std::string_view kFeatures[] = {"document", "full"};
 
 void read_chip(TomlReader& reader, ChipConfig& chip) {
   chip.features = static_cast<std::uint32_t>(reader.choice("features", kFeatures).value_or(0));
+  if (MB4SIM_ONE_MODEL && chip.features != kAxiDocument) {
+    reader.fail("features", left_out(kFeatures[chip.features], "-DMB4_ONE_MODEL=OFF"));
+  }
 }
 
 void read_quirks(TomlReader& reader, ChipConfig& chip) {

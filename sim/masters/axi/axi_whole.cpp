@@ -1,6 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 #include <Vaxi_1.h>
+#include <verilated.h>
+
+// Made by sim/model/signal_list.py; with PREFIX___024root.h.
+#include <Vaxi_1_wave.hpp>
+#if !MB4SIM_ONE_MODEL
 #include <Vaxi_16.h>
 #include <Vaxi_4.h>
 #include <Vaxi_align_16.h>
@@ -8,17 +13,15 @@
 #include <Vaxi_full_1.h>
 #include <Vaxi_full_16.h>
 #include <Vaxi_full_4.h>
-#include <verilated.h>
 
-// Made by sim/model/signal_list.py; with PREFIX___024root.h.
 #include <Vaxi_16_wave.hpp>
-#include <Vaxi_1_wave.hpp>
 #include <Vaxi_4_wave.hpp>
 #include <Vaxi_align_16_wave.hpp>
 #include <Vaxi_align_4_wave.hpp>
 #include <Vaxi_full_16_wave.hpp>
 #include <Vaxi_full_1_wave.hpp>
 #include <Vaxi_full_4_wave.hpp>
+#endif
 
 #include "sim/masters/axi/axi_makers.hpp"
 
@@ -33,8 +36,9 @@ std::unique_ptr<AxiModel> make(const ChipConfig& chip, std::uint64_t seed, bool 
 
 }  // namespace
 
-std::unique_ptr<AxiModel> make_axi_whole(const ChipConfig& chip, unsigned channels,
+std::unique_ptr<AxiModel> make_axi_whole(const ChipConfig& chip, [[maybe_unused]] unsigned channels,
                                          std::uint64_t seed, bool plain) {
+#if !MB4SIM_ONE_MODEL
   if (chip.features == kAxiFull) {
     if (channels <= 1) return make<Vaxi_full_1, 1>(chip, seed, plain);
     if (channels <= 4) return make<Vaxi_full_4, 4>(chip, seed, plain);
@@ -47,6 +51,9 @@ std::unique_ptr<AxiModel> make_axi_whole(const ChipConfig& chip, unsigned channe
   }
   if (channels <= 4) return make<Vaxi_4, 4>(chip, seed, plain);
   return make<Vaxi_16, kAxiChannels>(chip, seed, plain);
+#else
+  return make<Vaxi_1, 1>(chip, seed, plain);
+#endif
 }
 
 }  // namespace mb4::sim

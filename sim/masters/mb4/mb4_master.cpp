@@ -24,7 +24,9 @@
 namespace mb4::sim {
 namespace {
 
-constexpr std::string_view kWordsLeftOut = MB4SIM_WITH_AXI ? "" : "-DMB4_AXI=ON";
+constexpr std::string_view kWordsLeftOut = !MB4SIM_WITH_AXI   ? "-DMB4_AXI=ON"
+                                           : MB4SIM_ONE_MODEL ? "-DMB4_ONE_MODEL=OFF"
+                                                              : "";
 constexpr HostInterface kInterfaces[] = {
     HostInterface::kSpi,
     HostInterface::kSpi2,
@@ -112,7 +114,7 @@ void read_host(TomlReader& reader, const ChipConfig& chip, HostConfig& host) {
 }
 
 std::unique_ptr<LiveMaster> make(const MasterSetup& setup) {
-#if MB4SIM_WITH_AXI
+#if MB4SIM_WITH_AXI && !MB4SIM_ONE_MODEL
   if (setup.host.interface.words) return std::make_unique<LiveWords>(setup);
 #endif
   return std::make_unique<LiveMb4>(setup);

@@ -29,6 +29,9 @@ void read_pru_chip(TomlReader& reader, ChipConfig& chip) {
     reader.fail("f_clk_hz", std::to_string(chip.f_clk_hz) + ": the master is made for " +
                                 std::to_string(kPruSlowHz) + " and " + std::to_string(kPruFastHz));
   }
+  if (MB4SIM_ONE_MODEL && chip.f_clk_hz != kPruFastHz) {
+    reader.fail("f_clk_hz", left_out(std::to_string(kPruSlowHz), "-DMB4_ONE_MODEL=OFF"));
+  }
 }
 
 void read_pru_quirks(TomlReader& reader, ChipConfig& chip) {

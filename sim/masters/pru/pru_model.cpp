@@ -4,20 +4,25 @@
 
 #include <Vpru_200.h>
 #include <Vpru_200___024root.h>
-#include <Vpru_80.h>
-#include <Vpru_80___024root.h>
 #include <verilated.h>
 
 // Made by sim/model/signal_list.py.
 #include <Vpru_200_wave.hpp>
+#if !MB4SIM_ONE_MODEL
+#include <Vpru_80.h>
+#include <Vpru_80___024root.h>
+
 #include <Vpru_80_wave.hpp>
+#endif
 #include <algorithm>
 #include <type_traits>
 
 // Some packages of Verilator leave this number empty. The headers hold what 5.006 writes.
 #if VERILATOR_VERSION_INTEGER + 0 == 5006000
 #include <Vpru_200_edge.hpp>
+#if !MB4SIM_ONE_MODEL
 #include <Vpru_80_edge.hpp>
+#endif
 #ifndef MODEL_RUNS_WHOLE
 #define MB4_PRU_IN_PARTS
 #endif
@@ -104,7 +109,7 @@ struct InsidePru {
 };
 
 #ifdef MB4_PRU_IN_PARTS
-#define MB4_PRU_EDGE(mhz)                                                               \
+#define MB4_PRU_STEPS(mhz)                                                              \
   struct Edge##mhz {                                                                    \
     using Root = Vpru_##mhz##___024root;                                                \
     using Kept = pru_##mhz::Kept;                                                       \
@@ -112,33 +117,32 @@ struct InsidePru {
     static void fall(Root* root, Kept& kept) { pru_##mhz::fall(root, kept); }           \
     static void line(Root* /*root*/, Kept& kept) { pru_##mhz::line_has_changed(kept); } \
     static void time(Kept& kept) { pru_##mhz::counts_have_changed(kept); }              \
-  }
-MB4_PRU_EDGE(80);
-MB4_PRU_EDGE(200);
+  };                                                                                    \
+  using Steps##mhz = PartSteps<Vpru_##mhz, Edge##mhz>
+#else
+#define MB4_PRU_STEPS(mhz) using Steps##mhz = WholeSteps<Vpru_##mhz>
+#endif
+MB4_PRU_STEPS(200);
+#if !MB4SIM_ONE_MODEL
+MB4_PRU_STEPS(80);
 #endif
 
 template <typename Model, typename Steps, std::uint64_t Hz>
 std::unique_ptr<PruModel> make(const ChipConfig& chip, std::uint64_t seed, bool plain) {
-  return std::make_unique<VerilatedPru<Model, Steps, InsidePru<Model, Hz>>>(chip, seed, plain);
-}
-
-template <typename Model, std::uint64_t Hz>
-std::unique_ptr<PruModel> make_whole(const ChipConfig& chip, std::uint64_t seed, bool plain) {
-  return make<Model, WholeSteps<Model>, Hz>(chip, seed, plain);
+  using Inside = InsidePru<Model, Hz>;
+  if (plain) {
+    return std::make_unique<VerilatedPru<Model, WholeSteps<Model>, Inside>>(chip, seed, true);
+  }
+  return std::make_unique<VerilatedPru<Model, Steps, Inside>>(chip, seed, false);
 }
 
 }  // namespace
 
 std::unique_ptr<PruModel> make_pru_model(const ChipConfig& chip, std::uint64_t seed, bool plain) {
-  const bool fast = chip.f_clk_hz == kPruFastHz;
-#ifdef MB4_PRU_IN_PARTS
-  if (!plain) {
-    return fast ? make<Vpru_200, PartSteps<Vpru_200, Edge200>, kPruFastHz>(chip, seed, false)
-                : make<Vpru_80, PartSteps<Vpru_80, Edge80>, kPruSlowHz>(chip, seed, false);
-  }
+#if !MB4SIM_ONE_MODEL
+  if (chip.f_clk_hz != kPruFastHz) return make<Vpru_80, Steps80, kPruSlowHz>(chip, seed, plain);
 #endif
-  return fast ? make_whole<Vpru_200, kPruFastHz>(chip, seed, plain)
-              : make_whole<Vpru_80, kPruSlowHz>(chip, seed, plain);
+  return make<Vpru_200, Steps200, kPruFastHz>(chip, seed, plain);
 }
 
 }  // namespace mb4::sim

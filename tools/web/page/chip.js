@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The simulator and the driver of native/openmb4_web.cpp. A call that fails throws an Error with
-// the words of the C interface.
+// The session of native/openmb4_web.cpp. A call that fails throws an Error with its words.
 "use strict";
 
 // Base64 of a gzip file.
@@ -35,8 +34,20 @@ class Chip {
     if (error !== "") throw new Error(error);
   }
 
+  // A row of `mb4sim run --csv`: the words of the encoder are in the order of columns().
+  static row(line) {
+    const quoted = line.endsWith('"');
+    const end = quoted ? line.indexOf(',"') : line.lastIndexOf(",");
+    const state = quoted ? line.slice(end + 2, -1) : line.slice(end + 1);
+    const [, us, slave, ...words] = line.slice(0, end).split(",");
+    return {us, slave, words, state, good: /^ok\b/.test(state)};
+  }
+
   version() { return this.text("web_version"); }
   presets() { return JSON.parse(this.text("web_presets")); }
+  columns() { return JSON.parse(this.text("web_columns")); }
+  // Why a master cannot read an encoder; "" if it can.
+  refuses(master, encoder) { return this.text("web_refuses", ["string", "string"], [master, encoder]); }
   frequencies(clkHz) { return JSON.parse(this.text("web_frequencies", ["number"], [clkHz])); }
   open(scenario) { this.must("web_open", ["string"], [scenario]); }
   configure() { this.must("web_configure"); }
@@ -46,14 +57,15 @@ class Chip {
   record(on) { this.module._web_record(on ? 1 : 0); }
   setPin(name, level) { this.must("web_set_pin", ["string", "number"], [name, level]); }
   pin(name) { return this.module.ccall("web_pin", "number", ["string"], [name]); }
-  get timeNs() { return this.number("web_time_ns"); }
+  get timePs() { return this.number("web_time_ps"); }
+  get timeNs() { return Math.floor(this.timePs / 1000); }
   get clocks() { return this.number("web_clk_cycles"); }
 
-  // Frames of all slaves; the rows that web_read() tells.
+  // Frames: of each a row for each slave.
   read(count = 1) {
     const {error, rows} = JSON.parse(this.text("web_read", ["number"], [count]));
     if (error !== "") throw new Error(error);
-    return rows;
+    return rows.map((frame) => frame.map(Chip.row));
   }
 
   // One SPI frame. Returns the chip's bytes.
@@ -68,6 +80,20 @@ class Chip {
       module._free(memory);
     }
   }
+
+  // A word of a master on a bus of words.
+  readWord(address) {
+    const {module} = this;
+    const memory = module._malloc(4);
+    try {
+      this.must("web_word_read", ["number", "number"], [address, memory]);
+      return module.HEAPU32[memory >> 2];
+    } finally {
+      module._free(memory);
+    }
+  }
+
+  writeWord(address, value) { this.must("web_word_write", ["number", "number"], [address, value]); }
 
   // Edges and frames since the last call: [{time, place, level}] of channel 1, and web_frames().
   taken() {

@@ -4,10 +4,13 @@
 // The page: set-up, run, plot, SPI by hand.
 "use strict";
 
-const CLK_HZ = 20_000_000, SCLK_HZ = 10_000_000, NS_PER_M = 5.3;
+const NS_PER_M = 5.3;
 const MAX_POINTS = 1000, TABLE_ROWS = 8, LOG_LINES = 50;
 const BUDGET_MS = 12, REFRESH_MS = 250;
 const NUMBERS = ["bits", "cable"];  // fields of the set-up that hold a number
+const KEYS = {data_bits: "bits", cable_m: "cable"};  // those of a scenario
+const USUAL = {master: "ic-mb4", encoder: "resolute-26", bits: 26, movement: "sine", cable: 10, ma: 10 * MHZ,
+               pace: 0, fault: "silent"};
 const TITLES = {"biss-c": "BiSS C", "biss-b": "BiSS B", ssi: "SSI"};
 
 const $ = (id) => document.getElementById(id);
@@ -18,6 +21,7 @@ const html = (name, properties = {}, ...children) => {
 };
 
 let chip, registers, view, diagram, plot;
+let columns = [];       // of the words of the open master
 let presets = new Map();
 let setup = null;       // of the open chip
 let running = false;
@@ -49,11 +53,12 @@ function encoderOf(setup) {
 }
 
 function scenario(setup) {
-  const encoder = encoderOf(setup);
+  const encoder = encoderOf(setup), {clkHz, sclkHz} = MASTERS[setup.master];
   const positions = 2n ** BigInt(encoder.data_bits - encoder.flag_bits);
   const lines = [
-    "[chip]", `f_clk_hz = ${CLK_HZ}`, "",
-    "[host]", `sclk_hz = ${SCLK_HZ}`, `ma_hz = ${setup.ma}`, "",
+    ...(setup.master === USUAL.master ? [] : ["[master]", `type = "${setup.master}"`, ""]),
+    "[chip]", `f_clk_hz = ${clkHz}`, "",
+    "[host]", ...(sclkHz ? [`sclk_hz = ${sclkHz}`] : []), `ma_hz = ${setup.ma}`, "",
     "[[channel]]", "number = 1", `cable_m = ${setup.cable}`, "",
     "[[channel.slave]]", `protocol = "${encoder.protocol}"`, `preset = "${encoder.name}"`];
   if (presets.get(setup.encoder).data_bits === 0) lines.push(`data_bits = ${setup.bits}`);
@@ -74,8 +79,8 @@ function least(value) {
 }
 
 function readControls() {
-  return {encoder: $("encoder").value, bits: Number($("bits").value), movement: $("movement").value,
-          cable: Number($("cable").value), ma: Number($("frequency").value), ...readChoices()};
+  return {master: $("master").value, encoder: $("encoder").value, bits: Number($("bits").value),
+          movement: $("movement").value, cable: Number($("cable").value), ma: Number($("frequency").value), ...readChoices()};
 }
 
 // What a link keeps besides the set-up of the chip.
@@ -83,8 +88,42 @@ function readChoices() {
   return {pace: Number($("pace").value), fault: $("fault-kind").value};
 }
 
+// Offers what a master can make and read. Returns what it does not have of what was chosen; "":
+// nothing.
+function offer(master) {
+  const {name, maHz, clkHz} = MASTERS[master];
+  const chosen = $("frequency").value, text = $("frequency").selectedOptions[0]?.textContent, lost = [];
+  $("frequency").replaceChildren(...(maHz ?? chip.frequencies(clkHz)).map((hz) => {
+    const textContent = hz >= MHZ ? `${+(hz / MHZ).toFixed(3)} MHz` : `${+(hz / 1e3).toFixed(2)} kHz`;
+    return html("option", {value: hz, textContent});
+  }));
+  $("frequency").value = chosen;
+  if ($("frequency").selectedIndex < 0) {
+    $("frequency").selectedIndex = 0;
+    lost.push(`${name} does not make ${text} from its clock`);
+  }
+  for (const option of $("encoder").options) {
+    option.title = master === USUAL.master ? "" : reason(chip.refuses(master, option.value));
+    option.disabled = option.title !== "";
+  }
+  const [encoder] = $("encoder").selectedOptions;
+  if (encoder?.disabled) {
+    lost.push(`${encoder.textContent}: ${encoder.title}`);
+    $("encoder").value = USUAL.encoder;
+  }
+  return lost.join("; ");
+}
+
+// An error of a scenario without its place.
+function reason(error) {
+  return error.replace(/^.*?: key '\w+': /, "").replace(/ \(in \[.*\]\)$/, "");
+}
+
 function showControls(setup) {
+  $("master").value = setup.master;
+  offer(setup.master);
   $("encoder").value = setup.encoder;
+  $("bits-label").hidden = presets.get(setup.encoder).data_bits !== 0;
   $("bits").value = setup.bits;
   $("movement").value = setup.movement;
   $("cable").value = setup.cable;
@@ -113,18 +152,22 @@ function showLink() {
 }
 
 function fragment(setup) {
-  const {bits, ...rest} = setup;
-  return "#" + new URLSearchParams(presets.get(setup.encoder).data_bits === 0 ? {...rest, bits} : rest);
+  const {master, bits, ...rest} = setup;
+  return "#" + new URLSearchParams({...(master === USUAL.master ? {} : {master}), ...rest,
+                                    ...(presets.get(setup.encoder).data_bits === 0 ? {bits} : {})});
 }
 
 // The set-up of a link; what it does not name is as in `otherwise`. Throws for what the page does
 // not know.
 function fromFragment(text, otherwise) {
-  const found = {...otherwise};
-  for (const [key, value] of new URLSearchParams(text.replace(/^#/, ""))) {
+  const found = {...otherwise}, given = new URLSearchParams(text.replace(/^#/, ""));
+  const master = given.get("master") ?? otherwise.master;
+  if (Object.hasOwn(MASTERS, master)) offer(master);
+  for (const [key, value] of given) {
     if (!Object.hasOwn(otherwise, key)) throw new Error(`link: unknown key '${key}'`);
     const known = {
-      encoder: () => presets.has(value),
+      master: () => Object.hasOwn(MASTERS, value),
+      encoder: () => [...$("encoder").options].some((option) => option.value === value && !option.disabled),
       movement: () => [...$("movement").options].some((option) => option.value === value),
       ma: () => [...$("frequency").options].some((option) => option.value === value),
       bits: () => /^[0-9]+$/.test(value) && Number(value) >= 3 && Number(value) <= 64,
@@ -146,10 +189,14 @@ function open(wanted) {
     chip.open(text);
     problem("");
   } catch (error) {
-    problem(error.message);
+    const [, key] = /: key '(\w+)'/.exec(error.message) ?? [];
+    if (setup !== null && key in KEYS) mark($(KEYS[key]), `${reason(error.message)}; the chip stays as it was`);
+    else problem(error.message);
     return false;
   }
+  const other = setup?.master !== wanted.master;
   setup = wanted;
+  if (other) showMaster();
   replay = null;
   counts = {good: 0, bad: 0};
   lead = null;
@@ -174,52 +221,83 @@ function open(wanted) {
   return true;
 }
 
+// The parts of the page that differ from master to master.
+function showMaster() {
+  const {name, Bus, table, last, groups, register, value} = MASTERS[setup.master];
+  registers = new Registers(new Bus(chip), PARTS.tables[table], last);
+  view = new RegisterView(registers, groups, $("register-groups"), say);
+  $("register-names").replaceChildren(
+    ...Object.keys(registers.addresses).map((one) => html("option", {value: one})));
+  $("register-name").value = register;
+  $("register-value").value = value;
+  for (const field of ["register-name", "register-value", "spi-bytes"]) mark($(field), "");
+  $("registers-title").textContent = `Registers of ${Bus === SpiBus ? "the chip" : name}`;
+  $("register-bus").textContent = registers.bus.name;
+  $("register-unit").textContent = {byte: "Byte", word: "Word"}[registers.bus.unit];
+  const spi = Bus === SpiBus;
+  $("spi").hidden = $("spi-log").hidden = !spi;
+  $("no-spi").hidden = spi;
+  $("no-spi").textContent = `${name} has no SPI: its host is on ${registers.bus.name}, which the registers above use.`;
+  columns = chip.columns();
+  $("columns").replaceChildren(...["read at, µs", "slave", ...columns.map(({title}) => title), "state"].map(
+    (textContent) => html("th", {textContent})));
+}
+
 // --- frames ----------------------------------------------------------------------------------
 
 function takeLevels() {
   for (const edge of chip.taken().edges) levels[edge.place] = edge.level;
 }
 
-// Reads one frame through the driver. Returns its row and its picture.
+// The frame on MA since a time, by its edges. Masters tell a frame when MA has rested, which may be
+// after the host has read it.
+function lastFrame(edges, since) {
+  const ma = edges.filter((edge) => edge.place === 0 && edge.time >= since);
+  if (ma.length < 2) return undefined;
+  const pause = 10 * (ma.at(-1).time - ma.at(-2).time);
+  let first = ma.length - 1;
+  while (first > 0 && ma[first].time - ma[first - 1].time < pause) --first;
+  return {start_ns: ma[first].time, end_ns: ma.at(-1).time};
+}
+
+// Reads one frame as the command line does. Returns its row and its picture.
 function readFrame() {
   const before = {...levels};
   const begin = chip.timeNs;
-  const [row] = chip.read();
+  const [[row]] = chip.read();
   const {edges, frames} = chip.taken();
   for (const edge of edges) levels[edge.place] = edge.level;
   const encoder = encoderOf(setup);
   const roundTrip = 2 * NS_PER_M * setup.cable;
   const frame = frames.find((one) => one.channel === 1 && one.start_ns >= begin - 1) ??
-    {start_ns: begin, end_ns: Math.max(row.time_ns, begin + 1)};
+    lastFrame(edges, MASTERS[setup.master].runs ? 0 : begin - 1) ??
+    {start_ns: begin, end_ns: Math.max(chip.timeNs, begin + 1)};
   lead = {start: frame.start_ns - begin, length: frame.end_ns - frame.start_ns};
   const seen = frame.end_ns + roundTrip;
   const margin = (seen - frame.start_ns) * 0.04;
-  const [word] = row.slaves;
-  const good = row.text === "" && word.text === "";
+  const word = Object.fromEntries(columns.map(({key}, i) => [key, row.words[i]]));
   const picture = {
-    edges, before, good, seen, zero: frame.start_ns, from: frame.start_ns - margin, to: seen + 2 * margin,
+    edges, before, good: row.good, seen, zero: frame.start_ns, from: frame.start_ns - margin, to: seen + 2 * margin,
     brackets: brackets(edges, frame, encoder, encoder.data_bits, roundTrip),
-    title: good ? `raw word ${hex(BigInt(word.raw), Math.ceil(encoder.data_bits / 4))}` : `no word: ${word.text || row.text}`};
-  return {row, word, good, picture};
+    title: row.good ? `raw word ${word.raw}` : `no word: ${row.state}`};
+  return {row, word, picture};
 }
 
-function publish({row, word, good}) {
+function publish({row, word}) {
+  const {good, state} = row;
   counts[good ? "good" : "bad"] += 1;
   $("position").textContent = good ? word.position : "–";
-  $("state").textContent = good ? "ok" : word.text || row.text;
+  $("state").textContent = $("state").title = state;
   $("state").classList.toggle("bad", !good);
   $("good").textContent = counts.good;
   $("bad").textContent = counts.bad;
   showDial(good ? BigInt(word.position) : null);
-  const cells = [(row.time_ns / 1000).toFixed(3), word.slave,
-                 ...(good ? [hex(BigInt(word.raw), Math.ceil(encoderOf(setup).data_bits / 4)), word.position,
-                             word.error ? 0 : 1, word.warning ? 0 : 1, hex(word.crc, 2), "ok"]
-                           : ["", "", "", "", "", word.text || row.text])];
+  const cells = [row.us, row.slave, ...row.words, state];
   const line = html("tr", {className: good ? "" : "bad"},
                     ...cells.map((text) => html("td", {textContent: text})));
   $("frames").prepend(line);
   while ($("frames").rows.length > TABLE_ROWS) $("frames").lastElementChild.remove();
-  points.time.push(row.time_ns / 1e6);
+  points.time.push(row.us / 1000);
   points.position.push(good ? Number(word.position) : null);
   const last = points.position.findLast((position) => position !== null) ?? 0;
   points.bad.push(good ? null : last);
@@ -375,7 +453,8 @@ function step() {
 function faultTable(kind) {
   const {start, length} = lead;
   const us = (ns) => (Math.max(ns, 1) / 1000).toFixed(3);
-  const lasts = `at_us = 0\nfor_us = ${us(2 * (start + length))}\n`;
+  const reads = MASTERS[setup.master].runs ? 1 : 2;  // more would meet two frames of one that runs
+  const lasts = `at_us = 0\nfor_us = ${us(reads * (start + length))}\n`;
   const head = `[[fault]]\nkind = "${kind}"\n`;
   switch (kind) {
     case "bit-flip": return head + "at_us = 0\nbits = [5]\n";
@@ -437,9 +516,11 @@ function act(fields, action) {
 function listen() {
   $("setup").addEventListener("change", (event) => {
     if (event.target.id === "link") return;
+    const lost = event.target.id === "master" ? offer($("master").value) : "";
     const wanted = readControls();
     $("bits-label").hidden = presets.get(wanted.encoder).data_bits !== 0;
     if (!numbersAreGood(wanted) || !open(wanted)) $("link").value = location.href;
+    else if (lost !== "") say(lost, true);
   });
   $("setup").addEventListener("submit", (event) => event.preventDefault());
   addEventListener("hashchange", () => openLink());
@@ -471,13 +552,13 @@ function listen() {
   $("register").addEventListener("submit", act(["register-name", "register-value"], () => {
     const address = chosen();
     inField("register-value", (text) => registers.write(address, parseNumber(text)));
-    say(`${registers.names[address] ?? hex(address, 2)} is written`);
+    say(`${registers.title(address)} is written`);
   }));
   $("register-read").addEventListener("click", act(["register-name", "register-value"], () => {
     const address = chosen();
-    const [value] = registers.read(address);
-    $("register-value").value = hex(value, 2);
-    say(`${registers.names[address] ?? hex(address, 2)} = ${hex(value, 2)}`);
+    const value = registers.hexOf(registers.read(address));
+    $("register-value").value = value;
+    say(`${registers.title(address)} = ${value}`);
   }));
   addEventListener("keydown", (event) => {
     const typing = event.target.matches("input, select, textarea") || $("help").open;
@@ -508,19 +589,17 @@ function makePlot() {
 }
 
 function openLink() {
-  const usual = {encoder: "resolute-26", bits: 26, movement: "sine", cable: 10, ma: 10_000_000,
-                 pace: 0, fault: "silent"};
-  let wanted = usual, wrong = "";
+  let wanted = USUAL, wrong = "";
   try {
-    wanted = fromFragment(location.hash, usual);
+    wanted = fromFragment(location.hash, USUAL);
   } catch (error) {
     wrong = error.message;
   }
   showControls(wanted);
   if (!open(wanted) && setup === null) {  // a link whose set-up is refused
     wrong = $("problem").textContent;
-    showControls(usual);
-    open(usual);
+    showControls(USUAL);
+    open(USUAL);
   }
   if (wrong !== "") problem(wrong);
 }
@@ -541,14 +620,8 @@ async function begin() {
                                            textContent: preset.description.replace(/, give data_bits$/, "")}));
   }
   $("encoder").append(...groups.values());
-  for (const hz of chip.frequencies(CLK_HZ)) {
-    const text = hz >= 1e6 ? `${+(hz / 1e6).toFixed(3)} MHz` : `${+(hz / 1e3).toFixed(2)} kHz`;
-    $("frequency").append(html("option", {value: hz, textContent: text}));
-  }
-  registers = new Registers(chip, PARTS.table, PARTS.addresses);
-  $("register-names").append(
-    ...Object.keys(PARTS.addresses).map((name) => html("option", {value: name})));
-  view = new RegisterView(registers, $("register-groups"), say);
+  $("master").append(...Object.entries(MASTERS).map(
+    ([value, {name}]) => html("option", {value, textContent: name})));
   diagram = new Diagram($("diagram"));
   makePlot();
   $("version").textContent = chip.version();

@@ -6,6 +6,7 @@
 "use strict";
 
 const SPI_READ = 0x03, SPI_WRITE = 0x02;
+const WORD_BYTES = 4;
 const hex = (value, digits) => "0x" + value.toString(16).toUpperCase().padStart(digits, "0");
 
 // A number as a user types it; null: none.
@@ -13,16 +14,53 @@ function parseNumber(text) {
   return /^(0x[0-9a-f]+|[0-9]+)$/i.test(text.trim()) ? BigInt(text.trim()) : null;
 }
 
+// How the registers of a master are reached. `group` of readGroup() has `first` and `size`.
+class SpiBus {
+  name = "SPI";
+  unit = "byte";
+  bytes = 1;
+
+  constructor(chip) { this.chip = chip; }
+  read(address) { return this.chip.spi([SPI_READ, address, 0])[2]; }
+  write(address, value) { this.chip.spi([SPI_WRITE, address, value]); }
+  // {address: value}, by one SPI frame.
+  readGroup({first, size}) {
+    const bytes = this.chip.spi([SPI_READ, first, ...new Array(size).fill(0)]).slice(2);
+    return Object.fromEntries([...bytes].map((byte, i) => [first + i, byte]));
+  }
+}
+
+class AxiBus {
+  name = "AXI4-Lite";
+  unit = "word";
+  bytes = WORD_BYTES;
+
+  constructor(chip) { this.chip = chip; }
+  read(address) { return this.chip.readWord(address); }
+  write(address, value) { this.chip.writeWord(address, value); }
+  // {address: value} of those that have a field.
+  readGroup(group, addresses) {
+    return Object.fromEntries(addresses.map((address) => [address, this.read(address)]));
+  }
+}
+
+// Some bits of a number; numbers of 32 bits have no sign.
+const bitsOf = (value, lsb, width) => BigInt(value) >> BigInt(lsb) & (1n << BigInt(width)) - 1n;
+
 class Registers {
-  // `table`: mb4_regs.json; `addresses`: {register: address}.
-  constructor(chip, table, addresses) {
-    this.chip = chip;
-    this.addresses = addresses;
+  // `bus`: a SpiBus or AxiBus. `table`: the fields of NAME_regs.json, and addresses: {register:
+  // address}. `last`: the highest address.
+  constructor(bus, table, last) {
+    this.bus = bus;
+    this.last = last;
+    this.digits = last > 0xFF ? 3 : 2;
+    this.addresses = Object.fromEntries(
+      Object.entries(table.addresses).filter(([, address]) => address <= last));
     this.names = Object.fromEntries(
-      Object.entries(addresses).map(([name, address]) => [address, name]));
+      Object.entries(this.addresses).map(([name, address]) => [address, name]));
     this.fields = new Map();
-    for (const part of [...table.fields, ...table.alternate_fields]) {
-      if (part.access === "rom") continue;
+    for (const part of table.fields) {
+      if (part.access === "rom" || part.address > last) continue;
       let name = part.label.replace(/\(.*/, "");
       if (name === "CHSEL") name = part.ident;
       if (!this.fields.has(name)) this.fields.set(name, {name, access: part.access, parts: []});
@@ -44,27 +82,30 @@ class Registers {
     const name = text.trim().toUpperCase();
     if (name in this.addresses) return this.addresses[name];
     const number = parseNumber(text);
-    if (number === null || number > 0xFFn) throw new Error(`no register '${text.trim()}'`);
+    if (number === null || number > this.last || number % BigInt(this.bus.bytes) !== 0n) {
+      throw new Error(`no register '${text.trim()}'`);
+    }
     return Number(number);
   }
 
-  read(address, size = 1) {
-    return this.chip.spi([SPI_READ, address, ...new Array(size).fill(0)]).slice(2);
-  }
+  // The name of a register, or its address.
+  title(address) { return this.names[address] ?? hex(address, this.digits); }
+  hexOf(value) { return hex(value, 2 * this.bus.bytes); }
+
+  read(address) { return this.bus.read(address); }
 
   write(address, value) {
-    if (value === null || value > 0xFFn) {
-      throw new Error(`${this.names[address] ?? hex(address, 2)}: this is no byte`);
+    if (value === null || value >> BigInt(8 * this.bus.bytes)) {
+      throw new Error(`${this.title(address)}: this is no ${this.bus.unit}`);
     }
-    this.chip.spi([SPI_WRITE, address, Number(value)]);
+    this.bus.write(address, Number(value));
   }
 
-  // The value of a field out of the bytes of the chip, {address: byte}.
-  static value(field, bytes) {
+  // The value of a field out of {address: value of the register}.
+  static value(field, values) {
     let value = 0n, shift = 0n;
     for (const part of field.parts) {
-      const bits = bytes[part.address] >> part.lsb & (1 << part.width) - 1;
-      value |= BigInt(bits) << shift;
+      value |= bitsOf(values[part.address], part.lsb, part.width) << shift;
       shift += BigInt(part.width);
     }
     return value;
@@ -94,36 +135,31 @@ class Registers {
       throw new Error(`${name}: ${value} has more than ${field.width} bits`);
     }
     for (const part of field.parts) {
-      const mask = (1 << part.width) - 1;
-      const bits = Number(value & BigInt(mask));
-      const old = part.width === 8 ? 0 : this.read(part.address)[0] & ~(mask << part.lsb);
-      this.write(part.address, BigInt(old | bits << part.lsb));
+      const whole = part.width === 8 * this.bus.bytes;
+      const old = whole ? 0n : BigInt(this.read(part.address));
+      const lsb = BigInt(part.lsb);
+      const mask = bitsOf(-1n, 0, part.width) << lsb;
+      this.write(part.address, old & ~mask | value << lsb & mask);
       value >>= BigInt(part.width);
     }
   }
 }
 
-// The groups of the page: what one SPI frame reads, 64 bytes at most.
-const GROUPS = [
-  {title: "Status and instruction", first: 0xF0, size: 12},
-  {title: "Configuration", first: 0xE2, size: 20, without: [0xF0, 0xF4]},
-  {title: "Data channels", first: 0xC0, size: 32},
-  {title: "Single-cycle data", first: 0x00, size: 64},
-  {title: "Register data", first: 0x80, size: 64},
-];
-
 // The groups as <details>; open ones follow the chip.
 class RegisterView {
-  constructor(registers, parent, tell) {
+  // `groups`: [{title, first, size, and without: [first, last] of addresses}].
+  constructor(registers, groups, parent, tell) {
     this.registers = registers;
     this.tell = tell;
-    this.groups = GROUPS.map((group) => {
+    parent.replaceChildren();
+    this.groups = groups.map((group) => {
       const details = document.createElement("details");
       const summary = document.createElement("summary");
       summary.textContent = group.title;
-      const last = group.first + group.size - 1;
+      const last = group.first + group.size - registers.bus.bytes;
+      const [from, to] = [group.first, last].map((address) => hex(address, registers.digits));
       summary.append(Object.assign(document.createElement("span"),
-                                   {className: "hint", textContent: ` ${hex(group.first, 2)} to ${hex(last, 2)}`}));
+                                   {className: "hint", textContent: ` ${from} to ${to}`}));
       details.append(summary);
       parent.append(details);
       const shown = {...group, details, inputs: null};
@@ -136,19 +172,18 @@ class RegisterView {
 
   build(group) {
     const holder = document.createElement("div");
-    holder.className = "fields";
+    holder.className = `fields ${this.registers.bus.unit}`;
     group.inputs = [];
     const has = (field) => field.address >= group.first && field.address < group.first + group.size &&
       !(group.without && field.address >= group.without[0] && field.address <= group.without[1]);
+    const {bus, digits} = this.registers;
     const fields = [...this.registers.fields.values()].filter(has);
-    if (group.first === 0xF0) {
-      fields.splice(0, fields.length, ...fields.filter((field) => field.address !== 0xF5));
-    }
+    group.addresses = [...new Set(fields.flatMap(({parts}) => parts.map((part) => part.address)))];
     for (const field of fields) {
       const label = document.createElement("label");
       const part = field.parts[0];
-      const where = field.parts.length > 1 || part.width === 8 ? hex(field.address, 2)
-        : `${hex(field.address, 2)}.${part.width > 1 ? `${part.lsb + part.width - 1}:` : ""}${part.lsb}`;
+      const where = field.parts.length > 1 || part.width === 8 * bus.bytes ? hex(field.address, digits)
+        : `${hex(field.address, digits)}.${part.width > 1 ? `${part.lsb + part.width - 1}:` : ""}${part.lsb}`;
       label.innerHTML = `<span class="name"></span> <span class="hint"></span>`;
       label.children[0].textContent = field.name;
       label.children[1].textContent = where;
@@ -187,7 +222,7 @@ class RegisterView {
         mark(input, "");
       });
       label.append(input);
-      const word = Object.assign(document.createElement("span"), {className: "hint word"});
+      const word = Object.assign(document.createElement("span"), {className: "hint meaning"});
       if (field.codes.size > 0) {
         input.title = [...field.codes].map(([name, code]) => `${code}: ${name}`).join("\n");
         label.append(word);
@@ -203,15 +238,15 @@ class RegisterView {
     for (const group of this.groups) {
       if (!group.details.open) continue;
       if (group.inputs === null) this.build(group);
-      const bytes = {};
+      let values;
       try {
-        this.registers.read(group.first, group.size).forEach((byte, i) => { bytes[group.first + i] = byte; });
+        values = this.registers.bus.readGroup(group, group.addresses);
       } catch (error) {
         this.tell(error.message, true);
         return;
       }
       for (const {field, input, word} of group.inputs) {
-        const value = Registers.value(field, bytes);
+        const value = Registers.value(field, values);
         word.textContent = Registers.nameOf(field, value);
         const text = field.width >= 8 ? hex(value, Math.ceil(field.width / 4)) : String(value);
         const changing = document.activeElement === input && input.value !== input.dataset.shown;
