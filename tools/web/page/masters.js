@@ -32,7 +32,7 @@ const MASTERS = {
       {title: "Interrupts, time, watchdog", first: 0x200, size: 0x24}]},
   pru: {
     name: "biss_pru", clkHz: 200 * MHZ, maHz: [10, 5, 2, 1].map((mhz) => mhz * MHZ),
-    runs: true,  // it makes frames by itself
+    periodNs: 100_000,  // it makes frames by itself
     Bus: AxiBus, table: "pru", last: 0x238, register: "TRIGGER_PERIOD", value: "20000",
     groups: [
       {title: "Memory of the firmware", first: 0x000, size: 0x20},

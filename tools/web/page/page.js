@@ -267,10 +267,10 @@ function readFrame() {
   const [[row]] = chip.read();
   const {edges, frames} = chip.taken();
   for (const edge of edges) levels[edge.place] = edge.level;
-  const encoder = encoderOf(setup);
+  const encoder = encoderOf(setup), {periodNs} = MASTERS[setup.master];
   const roundTrip = 2 * NS_PER_M * setup.cable;
   const frame = frames.find((one) => one.channel === 1 && one.start_ns >= begin - 1) ??
-    lastFrame(edges, MASTERS[setup.master].runs ? 0 : begin - 1) ??
+    lastFrame(edges, periodNs ? 0 : begin - 1) ??
     {start_ns: begin, end_ns: Math.max(chip.timeNs, begin + 1)};
   lead = {start: frame.start_ns - begin, length: frame.end_ns - frame.start_ns};
   const seen = frame.end_ns + roundTrip;
@@ -453,8 +453,8 @@ function step() {
 function faultTable(kind) {
   const {start, length} = lead;
   const us = (ns) => (Math.max(ns, 1) / 1000).toFixed(3);
-  const reads = MASTERS[setup.master].runs ? 1 : 2;  // more would meet two frames of one that runs
-  const lasts = `at_us = 0\nfor_us = ${us(reads * (start + length))}\n`;
+  // Of a master that makes frames by itself a longer one would meet two.
+  const lasts = `at_us = 0\nfor_us = ${us(MASTERS[setup.master].periodNs ?? 2 * (start + length))}\n`;
   const head = `[[fault]]\nkind = "${kind}"\n`;
   switch (kind) {
     case "bit-flip": return head + "at_us = 0\nbits = [5]\n";
