@@ -391,6 +391,19 @@ def test_master_is_chosen_and_the_link_keeps_it(page, driver):
         assert page.good() == 1 and page["master"].get_attribute("value") == "ic-mb4"  # the usual set-up
 
 
+def test_a_model_that_the_page_has_not_is_refused(page):
+    slave = '[[channel.slave]]\nprotocol = "biss-c"\npreset = "resolute-26"\n'
+    one, two = (f"[[channel]]\nnumber = {number}\n{slave}" for number in (1, 2))
+    for text, left_out in ((f'[master]\ntype = "axi"\n[chip]\nfeatures = "full"\n{one}', "full"),
+                           (f'[master]\ntype = "axi"\n{one}{two}', "biss_axi with more than one channel"),
+                           (f'[master]\ntype = "pru"\n[chip]\nf_clk_hz = 80000000\n{one}', "80000000"),
+                           (f'[host]\ninterface = "axi"\n{one}', "axi")):
+        said = page.run("try { chip.open(arguments[0]); return ''; } catch (error) { return error.message; }", text)
+        assert left_out in said and "-DMB4_ONE_MODEL=OFF" in said, (text, said)
+    page.click("step")
+    assert page.text("state") == "ok"  # the chip before stays
+
+
 def test_what_a_master_cannot_read_is_told(page):
     page.choose("encoder", "posital-ssi-25")
     page.choose("frequency", "2500000")
