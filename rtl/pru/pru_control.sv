@@ -51,6 +51,7 @@ module pru_control (
   logic        take;
   logic        step;
   logic        ends;
+  logic        end_q;
   logic        in_data, in_crc;
   logic        fits_q;
   logic        crc_top;
@@ -105,7 +106,9 @@ module pru_control (
       crc_q     <= '0;
       result_q  <= '0;
       control_q <= '0;
+      end_q     <= 1'b0;
     end else begin
+      end_q  <= ends;
       runs_q <= !clear_i && (take || (runs_q && !ends));
       if (take) begin
         bits_q  <= word[31:1];
@@ -132,7 +135,7 @@ module pru_control (
 
   assign cdm_o     = runs_q && (count_q == START || (count_q > START && bits_q[30]));
   assign word_o    = word;
-  assign end_o     = ends;
+  assign end_o     = end_q;
   assign control_o = control_q;
 
 endmodule

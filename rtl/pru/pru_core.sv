@@ -70,7 +70,7 @@ module pru_core #(
   logic        cdm, ctrl_end;
   logic [3:0]  ctrl_write;
   logic [31:0] ctrl_word;
-  logic        error;
+  logic        ended, error;
   logic [5:0]  data_bits_q, tail_bits_q;
   logic [5:0]  tail_bits;
   logic [6:0]  most;            // bits of position beside tail_bits
@@ -143,7 +143,7 @@ module pru_core #(
     .control_i    (control),
     .memory_i     (memory),
     .latch_i      (latch),
-    .update_i     (update),
+    .update_i     (ended),
     .error_i      (error),
     .ctrl_end_i   (ctrl_end),
     .triggered_i  (triggered),
@@ -288,6 +288,7 @@ module pru_core #(
     .more_line_i (quirks_i.extra_10 && plan.mhz == pru_pkg::MHZ_10),
     .ctrl_bad_i  (control.crc_bad),
     .memory_o    (memory),
+    .ended_o     (ended),
     .error_o     (error)
   );
 

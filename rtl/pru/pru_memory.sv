@@ -4,8 +4,9 @@
 // The results of frames: the bytes that a frame leaves in the memory, and what stands beside them.
 //
 // Clock domain: core. update_i is high for one clock: memory_o changes with its end, all at once;
-// what belongs to the control frame comes from there with the same edge. error_o is high in the
-// clock behind it if one of PROC_TIME_ERR, POS_CRC_ERR, CMD_CRC_ERR, NO_SLAVE_FLAG has risen.
+// what belongs to the control frame comes from there with the same edge. In the clock behind it
+// ended_o is high, and error_o if one of PROC_TIME_ERR, POS_CRC_ERR, CMD_CRC_ERR, NO_SLAVE_FLAG has
+// risen.
 //
 // - A frame without MA leaves line delay, processing time, CRC and position; RAW_DATA is 0.
 // - One without acknowledge leaves CRC and position; RAW_DATA is 0xFF.
@@ -26,6 +27,7 @@ module pru_memory (
   input  logic        more_line_i,   // two periods more in LINE_DELAY
   input  logic        ctrl_bad_i,    // CMD_CRC_ERR
   output pru_pkg::memory_t memory_o,
+  output logic        ended_o,
   output logic        error_o
 );
 
@@ -91,6 +93,7 @@ module pru_memory (
     end
   end
 
+  assign ended_o = update_q;
   assign error_o = update_q && (errors & ~errors_q) != 4'd0;
 
 endmodule

@@ -25,7 +25,7 @@ module pru_regs #(
   // results
   input  pru_pkg::memory_t memory_i,
   input  logic        latch_i,       // the clock that ends with the first rising edge of MA
-  // events, each high for one clock
+  // events, each high for one clock; what belongs to one frame comes in one clock
   input  logic        update_i,
   input  logic        error_i,
   input  logic        ctrl_end_i,

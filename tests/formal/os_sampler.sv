@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The sampler of eight samples a period (biss_os_sampler): any line, a sample each second clock, any
-// point that the user makes of the place. The search begins at any time. The bench has its own samples.
+// The sampler of eight samples a period (biss_os_sampler) in the frame behind a reset: any line, a sample each
+// clock or each second one, any point that the user makes of the place. The search begins at any time. The bench
+// has its own samples.
 //
 // claim: the first byte with a low sample is kept; the place is four behind its number of ones, with
 //   FIRST_LOW four behind its first low sample; from then on each eighth sample from the point on, and no
@@ -24,13 +25,14 @@ module proof (
   input logic       sl_i,
   input logic       search_i,
   input logic       first_low_i,
-  input logic [3:0] point_i
+  input logic [3:0] point_i,
+  input logic       each_i      // a sample each clock
 );
 
   // Samples are numbered; the eighth ends a byte.
   logic [2:0] number_q;
   logic       started = 1'b0;
-  logic       sample_q, first_low_q, search_q;
+  logic       sample_q, first_low_q, search_q, each_q;
   logic [3:0] point_q;
 
   logic       found, byte_done, bit_valid, sl_bit, level;
@@ -48,7 +50,8 @@ module proof (
     first_low_q <= first_low_i;
     search_q    <= search_i && rst_ni;
     point_q     <= point_i;
-    sample_q    <= !sample_q && rst_ni;
+    sample_q    <= (each_i || !sample_q) && rst_ni;
+    each_q      <= each_i;
     if (!rst_ni)       number_q <= '0;
     else if (sample_q) number_q <= number_q + 3'd1;
   end
@@ -56,7 +59,8 @@ module proof (
     if (!started) assume (!rst_ni);
     else begin
       assume (rst_ni);
-      assume (first_low_i == first_low_q && point_i == point_q);
+      assume (first_low_i == first_low_q && point_i == point_q && each_i == each_q);
+      if (each_i) assume (point_i >= 4'd4);  // as each place is
       if (search_q) assume (search_i);
     end
   end
@@ -123,6 +127,7 @@ module proof (
   always @(posedge clk_i) if (rst_ni) begin
     Early_C: cover (bit_valid && point_i == 4'd1);
     Late_C:  cover (found && place == 4'd11 && !first_low_i);
+    Each_C:  cover (bit_valid && each_i);
     Low_C:   cover (found && first_low_i && place == 4'd6 && raw[0]);
   end
 

@@ -4,13 +4,16 @@
 // The results of biss_pru (pru_memory, pru_control): whatever the frame, the control frame and the host do.
 //
 // claim: results change in the clock of an update only, all at once, the counter of wrong CRCs also when RUN
-//   rises; a frame that is not good leaves position, nE and nW
+//   rises, CMD_START_FLAG when it falls; a frame that is not good leaves position, nE and nW
 // clocks: one
 // depth: 8
 // cover: 8
 // unbounded: reachability
 // mutation: pru/pru_memory.sv | if (update_i) begin | if (update_i != absent_i) begin
 // mutation: pru/pru_memory.sv | whole && !found_i.crc_bad | whole
+// mutation: pru/pru_memory.sv | if (clear_i) memory_q.crc_errors <= '0;
+//   | if (clear_i) {memory_q.crc_errors, memory_q.line} <= '0;
+// mutation: pru/pru_memory.sv | memory_q.crc_errors <= '0; | {memory_q.crc_errors, memory_q.crc} <= '0;
 // mutation: pru/pru_memory.sv | acked && !found_i.late | acked
 // mutation: pru/pru_control.sv | if (ends) begin | if (count_q == LAST) begin
 
@@ -26,6 +29,13 @@ module proof (
   input logic        crc_bad_i,
   input logic        cds_i,
   input logic [62:0] position_i,
+  input logic        more_line_i,
+  input logic [3:0]  place_i,
+  input logic [3:0]  point_i,
+  input logic [7:0]  raw_i,
+  input logic [6:0]  line_i,
+  input logic [10:0] processing_i,
+  input logic [5:0]  crc_i,
   input logic [1:0]  flags_i,
   input logic [3:0]  write_i,
   input logic [31:0] data_i
@@ -39,9 +49,12 @@ module proof (
     found.acked    = acked_i;
     found.late     = late_i;
     found.crc_bad  = crc_bad_i;
-    found.place    = 4'd4;
-    found.point    = 4'd5;
-    found.raw      = 8'h0F;
+    found.place    = place_i;
+    found.point    = point_i;
+    found.raw      = raw_i;
+    found.line     = line_i;
+    found.processing = processing_i;
+    found.crc      = crc_i;
     found.cds      = cds_i;
     found.position = position_i;
     found.nerr     = flags_i[0];
@@ -49,8 +62,8 @@ module proof (
   end
 
   pru_memory u_memory (
-    .clk_i, .rst_ni, .clear_i, .update_i, .absent_i, .averages_i, .found_i (found), .more_line_i (1'b0),
-    .ctrl_bad_i (control.crc_bad), .memory_o (memory), .error_o ()
+    .clk_i, .rst_ni, .clear_i, .update_i, .absent_i, .averages_i, .found_i (found), .more_line_i,
+    .ctrl_bad_i (control.crc_bad), .memory_o (memory), .ended_o (), .error_o ()
   );
   pru_control u_control (
     .clk_i, .rst_ni, .write_i, .data_i, .word_o (), .clear_i, .step_i (update_i), .clocked_i (!absent_i),

@@ -34,8 +34,8 @@ JudgeSetup setup_of(std::uint32_t hz, unsigned quirks) {
   setup.sma_wrap = (quirks & 4U) != 0;
   setup.first_low = (quirks & 2U) != 0;
   setup.extra_10 = (quirks & 1U) != 0;
-  // Four clocks at least, and six more to pin irq_o, which tells the test.
-  setup.update_clocks = 10;
+  // Four clocks at least, and seven more to pin irq_o, which tells the test.
+  setup.update_clocks = 11;
   return setup;
 }
 
@@ -251,6 +251,132 @@ void look_at_levels_of_ma() {
   }
   EXPECT_NE(bench.read(reg::kAddrIrqStatus) & 4U, 0U) << "no control frame has ended";
   EXPECT_GT(levels, 60U * 40U);
+}
+
+// ---- Instants ----------------------------------------------------------------------------------
+
+// A line of ones, of which one clock reads 0: what the frame makes of it.
+template <typename Bench>
+class OneLowClock {
+ public:
+  explicit OneLowClock(unsigned mhz, unsigned bits = 1, unsigned overhead = 0) {
+    bench_.silent = true;
+    bench_.write(reg::kAddrLengths, bits | mhz << 16U);
+    bench_.write(reg::kAddrOverhead, overhead);
+    bench_.write(reg::kAddrTriggerPeriod, 0);
+    bench_.write(reg::kAddrRun, 1);
+    for (int frame = 0; frame < 2; ++frame) pass();  // that of RUN, and one with the rate
+  }
+  // A frame in which SL reads 0 in the clock edge with this number behind the second rise of MA.
+  // RAW_DATA, 0xFF if that edge is no sample.
+  std::uint32_t raw(unsigned clock) {
+    bench_.m.trigger_i = 1;
+    unsigned rises = 0;
+    bool before = true;
+    while (rises < 2) {
+      bench_.clock();
+      const bool level = bench_.m.ma_o != 0;
+      rises += level && !before ? 1 : 0;
+      before = level;
+    }
+    const Time edge = bench_.now + static_cast<Time>(clock) * Bench::kClock;
+    bench_.glitch(edge - Bench::kClock / 2, Bench::kClock - 2);
+    bench_.m.trigger_i = 0;
+    pass();
+    return bench_.read(reg::kAddrReceived) >> 16U & 0xFFU;
+  }
+
+ private:
+  void pass() { bench_.clocks(Bench::kHz / 1'000'000 * 100); }
+  Bench bench_;
+};
+
+// P-1: eight samples a period at 1, 2, 5 and 10 MHz, as evenly as the clock allows.
+template <typename Bench>
+void look_at_samples() {
+  for (const unsigned mhz : {1U, 2U, 5U, 10U}) {
+    OneLowClock<Bench> line(mhz);
+    const unsigned period = Bench::kHz / 1'000'000 / mhz;
+    std::vector<unsigned> at;
+    unsigned together = 0;  // bits of RAW_DATA that a sample of the byte has made 0
+    for (unsigned clock = period / 2; clock < period / 2 + 2 * period; ++clock) {
+      const std::uint32_t raw = line.raw(clock);
+      if (raw == 0xFF) continue;
+      at.push_back(clock);
+      ASSERT_EQ(__builtin_popcount(raw), 7) << mhz << " MHz, clock " << clock;
+      together |= ~raw & 0xFFU;
+    }
+    ASSERT_EQ(at.size(), 16U) << mhz << " MHz";
+    EXPECT_EQ(together, 0xFFU);
+    for (std::size_t i = 1; i < at.size(); ++i) {
+      EXPECT_GE(at[i] - at[i - 1], period / 8) << mhz;
+      EXPECT_LE(at[i] - at[i - 1], (period + 7) / 8) << mhz;
+      if (i >= 8) {
+        EXPECT_EQ(at[i] - at[i - 8], period) << mhz;
+      }
+    }
+  }
+}
+
+TEST(Pru, EachRateHasEightSamplesAPeriod_AsEvenlyAsTheClockAllows) {
+  look_at_samples<mb4test::PruBench200>();
+  look_at_samples<mb4test::PruBench80>();
+}
+
+// ---- Registers ---------------------------------------------------------------------------------
+
+struct MapRow {
+  unsigned address;
+  std::uint32_t reset, writable;
+};
+
+// Map B of the memory and the page: what each address reads behind the reset, and which bits keep
+// what is written.
+template <typename Bench>
+void look_at_the_map() {
+  const bool slow = Bench::kHz == 80'000'000;
+  for (unsigned quirks = 0; quirks < 8; ++quirks) {
+    const unsigned features = (slow ? 2U : 0U) | (quirks >> 2U & 1U) << 2U |
+                              (quirks >> 1U & 1U) << 3U | (quirks & 1U) << 4U;
+    const MapRow rows[] = {{0x000, 0, 0xFF'FFFF},
+                           {0x004, 0, 0xFFFF'FFFF},
+                           {0x200, 0x454E4303, 0},
+                           {0x204, reg::kResetVersion, 0},
+                           {0x208, features, 0},
+                           {0x210, 0, 0x1F},
+                           {0x220, 0, 1},
+                           {0x224, slow ? 8000U : 20'000U, 0xFF'FFFF},
+                           {0x228, slow ? 2160U : 5400U, 0xFFFF},
+                           {0x22C, 0, 0x3FF},
+                           {0x230, 3, 0}};
+    Bench bench(quirks);
+    std::vector<std::uint32_t> reset(1024, 0);
+    std::vector<std::uint32_t> writable(1024, 0);
+    for (const MapRow& row : rows) {
+      reset[row.address / 4] = row.reset;
+      writable[row.address / 4] = row.writable;
+    }
+    for (unsigned address = 0; address < 4096; address += 4) {
+      if (address == reg::kAddrTimeLow) continue;
+      ASSERT_EQ(bench.read(address), reset[address / 4]) << std::hex << address;
+    }
+    for (const bool ones : {true, false}) {
+      for (unsigned address = 0; address < 4096; address += 4) {
+        if (address == reg::kAddrTimeLow || address == reg::kAddrRun) continue;
+        bench.write(address, ones ? 0xFFFF'FFFF : 0);
+        const std::uint32_t kept = reset[address / 4] & ~writable[address / 4];
+        ASSERT_EQ(bench.read(address), kept | (ones ? writable[address / 4] : 0))
+            << std::hex << address << ' ' << ones;
+      }
+    }
+    bench.write(reg::kAddrRun, 0xFFFF'FFFF);
+    ASSERT_EQ(bench.read(reg::kAddrRun), 1U);
+  }
+}
+
+TEST(Pru, EveryAddress_ReadsAsTheMapSays) {
+  look_at_the_map<mb4test::PruBench200>();
+  look_at_the_map<mb4test::PruBench80>();
 }
 
 TEST(PruMa, CdmOneAndFramesWithoutAPause_EveryLevelLastsHalfAPeriod) {

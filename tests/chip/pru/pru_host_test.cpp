@@ -235,6 +235,73 @@ TEST(PruHost, FrequencyWhileTriggersWait_ActsTwoFramesLaterAndWhole) {
   for (unsigned i = 0; i < 3; ++i) EXPECT_EQ(frames.next(), quick);
 }
 
+// R-P17: a word that the host writes in the clock in which another one is taken, or in any clock
+// beside it, is neither lost nor mixed with that one.
+TEST(PruHost, ControlWordWrittenBesideTheTake_IsSentWhole) {
+  constexpr std::uint32_t kWrite06To60 = 0x8C16C194;
+  constexpr std::uint32_t kWrite5ATo61 = 0x8C30D680;
+  constexpr sim::Time kClock = sim::kPsPerUs / kMhz;
+  constexpr unsigned kPeriodUs = 100;
+  unsigned replaced = 0;
+  unsigned behind = 0;
+  for (unsigned clock = 0; clock < 24; ++clock) {
+    PruSim pru(pru_scenario(encoder(12, "registers = { 0x60 = 1, 0x61 = 1, 0x62 = 1 }\n")));
+    pru.start(12, 8, 10, kPeriodUs);
+    pru.frame();
+    wait_for_frame(pru);
+    const sim::Time told = pru.simulator.now();
+    pru.write(prureg::kAddrIrqStatus, 0x1F);
+    pru.write(prureg::kAddrCtrl, kWrite06To60);
+    // The next frame's end takes it; irq_o tells that some clocks later.
+    pru.simulator.advance(told + kPeriodUs * sim::kPsPerUs - (24 - clock) * kClock -
+                          pru.simulator.now());
+    pru.write(prureg::kAddrCtrl, kWrite5ATo61);
+    pru.simulator.advance(110 * kPeriodUs * sim::kPsPerUs);
+    const auto byte = [&pru](std::uint8_t address) {
+      return unsigned{pru.simulator.slave(1)->reg_read(address)};
+    };
+    ASSERT_TRUE(byte(0x60) == 1 || byte(0x60) == 6) << clock;
+    (byte(0x60) == 1 ? replaced : behind) += 1;
+    EXPECT_EQ(byte(0x61), 0x5AU) << clock;
+    EXPECT_EQ(byte(0x62), 1U) << clock;
+    EXPECT_EQ(pru.read(prureg::kAddrCtrl), 0U) << clock;
+  }
+  EXPECT_GT(replaced, 4U);
+  EXPECT_GT(behind, 4U);
+}
+
+// A trigger in the 40 us of RUN is lost and told; a period that becomes smaller than what has
+// passed ends at once; 1 acts as 2.
+TEST(PruHost, TriggersThatDoNotFit_DoWhatThePageSays) {
+  PruSim pru(pru_scenario(encoder(12)));
+  const sim::Pin pin = *pru.simulator.pin_by_name("trigger_i");
+  pru.write(prureg::kAddrLengths, 12U | 8U << 8U | 5U << 16U);
+  pru.write(prureg::kAddrTriggerPeriod, 0);
+  pru.write(prureg::kAddrRun, 1);
+  pru.simulator.advance(10 * sim::kPsPerUs);
+  EXPECT_EQ(pru.read(prureg::kAddrIrqStatus), 0U);
+  pru.simulator.set_pin(pin, true);
+  pru.simulator.advance(sim::kPsPerUs);
+  EXPECT_EQ(pru.read(prureg::kAddrIrqStatus), prureg::LOST::kMask);
+  pru.simulator.advance(300 * sim::kPsPerUs);
+  EXPECT_EQ(pru.read(prureg::kAddrFrameCount), 1U);  // that of RUN alone
+  pru.write(prureg::kAddrIrqEnable, prureg::FRAME_ENDED_ENABLE::kMask);
+
+  pru.write(prureg::kAddrTriggerPeriod, 5000 * kMhz);
+  pru.simulator.advance(700 * sim::kPsPerUs);
+  EXPECT_EQ(pru.read(prureg::kAddrFrameCount), 1U);
+  pru.write(prureg::kAddrTriggerPeriod, 500 * kMhz);
+  pru.simulator.advance(100 * sim::kPsPerUs);
+  EXPECT_EQ(pru.read(prureg::kAddrFrameCount), 2U);
+  for (const unsigned period : {1U, 2U}) {
+    pru.write(prureg::kAddrTriggerPeriod, period);
+    pru.simulator.advance(1000 * sim::kPsPerUs);
+    pru.write(prureg::kAddrIrqStatus, 0x1F);
+    pru.simulator.advance(100 * sim::kPsPerUs);
+    EXPECT_NE(pru.read(prureg::kAddrIrqStatus) & prureg::LOST::kMask, 0U) << period;
+  }
+}
+
 // OVERHEAD counts clocks behind the last sample, of which the first four always pass.
 TEST(PruHost, Overhead_MovesTheMemoryByClocks) {
   std::uint64_t least = 0;
