@@ -574,7 +574,8 @@ static inline biss_pru_result biss_pru_give_up(biss_pru_master *pru, uint32_t no
  * first two: the published format does not wait for it.
  * BISS_PRU_NO_FRAMES, BISS_PRU_TIMEOUT, and BISS_PRU_NO_SLAVE while SL is 0: only after 48 times
  * frame_limit_us. The control frame may still go on with the next frames, and a write be done;
- * BISS_PRU_BUSY until it has ended, or until biss_pru_stop() and biss_pru_start().
+ * BISS_PRU_BUSY until it has ended, or until biss_pru_stop() and biss_pru_start(). If frames come back
+ * in the very instant of this call, only the latter may end it.
  * BISS_PRU_NOT_RUNNING: the master was stopped or reset, so the encoder saw all or a part of it.
  * BISS_PRU_NO_ACCESS: none has begun. */
 BISS_PRU_RESULT biss_pru_poll(biss_pru_master *pru, uint8_t *data) {

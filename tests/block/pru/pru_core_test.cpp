@@ -6,6 +6,7 @@
 // and MA has the edges that the judge expects.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdio>
 #include <string>
@@ -321,6 +322,66 @@ void look_at_samples() {
 TEST(Pru, EachRateHasEightSamplesAPeriod_AsEvenlyAsTheClockAllows) {
   look_at_samples<mb4test::PruBench200>();
   look_at_samples<mb4test::PruBench80>();
+}
+
+// A frame at 5 MHz of an encoder that always sends the same, from the reset on. SL is inverted in
+// the clock edge with the number `low` behind the first rise of MA, if it is not 0; a word is read
+// about `read` clocks behind that rise.
+template <typename Bench>
+std::uint32_t read_beside_a_frame(unsigned overhead, unsigned low, unsigned read,
+                                  std::uint32_t address) {
+  Bench bench;
+  bench.encoder.timeout = 20'000'000;
+  const std::string word = bits_of(0x5A3, 12) + "11";
+  bench.encoder.payload = "0" + word + bits_of(~crc_of(word, 0x43), 6);
+  bench.write(reg::kAddrLengths, 12 | 8U << 8U | 5U << 16U);
+  bench.write(reg::kAddrOverhead, overhead);
+  bench.write(reg::kAddrTriggerPeriod, 0);
+  bench.write(reg::kAddrRun, 1);
+  bench.clocks(Bench::kHz / 1'000'000 * 150);
+  bench.m.trigger_i = 1;
+  for (bool before = true, rose = false; !rose; before = bench.m.ma_o != 0) {
+    bench.clock();
+    rose = bench.m.ma_o != 0 && !before;
+  }
+  if (low != 0) {
+    bench.glitch(bench.now + static_cast<Time>(low) * Bench::kClock - Bench::kClock / 2,
+                 Bench::kClock - 2);
+  }
+  bench.clocks(read);
+  return bench.read(address);
+}
+
+// R-P10: the memory changes OVERHEAD clocks behind the edge that takes the last sample, four at
+// least.
+template <typename Bench>
+void look_at_the_update() {
+  const auto read = read_beside_a_frame<Bench>;
+  constexpr unsigned kPeriod = Bench::kHz / 5'000'000;
+  constexpr unsigned kLong = 60 * kPeriod;
+  // The last sample: the last edge at which the level of SL matters.
+  unsigned sample = 0;
+  for (unsigned clock = 24 * kPeriod; clock < 26 * kPeriod; ++clock) {
+    const bool bad = (read(0, clock, kLong, reg::kAddrStatus) >> 19U & 1U) != 0;
+    if (bad) sample = clock;
+  }
+  ASSERT_NE(sample, 0U);
+  const std::uint32_t rise = read(0, 0, kLong, reg::kAddrLatchTime);
+  for (const unsigned overhead : {0U, 3U, 4U, 5U, 6U, 40U}) {
+    const unsigned due = sample + std::max(overhead, 4U);
+    std::uint32_t changed = 0;  // TIME_LOW at which the memory is first seen as changed
+    for (unsigned clock = due - 8; clock < due + 8 && changed == 0; ++clock) {
+      if (read(overhead, 0, clock, reg::kAddrFrameCount) != 2) continue;
+      changed = read(overhead, 0, clock, reg::kAddrTimeLow);
+    }
+    // What changes at an edge is seen at the next one.
+    EXPECT_EQ(changed - rise, due + 1) << overhead;
+  }
+}
+
+TEST(Pru, MemoryChanges_OverheadClocksBehindTheLastSample) {
+  look_at_the_update<mb4test::PruBench200>();
+  look_at_the_update<mb4test::PruBench80>();
 }
 
 // ---- Registers ---------------------------------------------------------------------------------
