@@ -361,7 +361,7 @@ void look_at_the_update() {
   constexpr unsigned kLong = 60 * kPeriod;
   // The last sample: the last edge at which the level of SL matters.
   unsigned sample = 0;
-  for (unsigned clock = 24 * kPeriod; clock < 26 * kPeriod; ++clock) {
+  for (unsigned clock = 22 * kPeriod; clock < 27 * kPeriod; ++clock) {
     const bool bad = (read(0, clock, kLong, reg::kAddrStatus) >> 19U & 1U) != 0;
     if (bad) sample = clock;
   }
