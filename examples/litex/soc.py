@@ -7,21 +7,20 @@
 
 Writes FOLDER/gateware (Verilog, constraints, build script) and FOLDER/csr.csv. Without --build no tool runs;
 with it Yosys and nextpnr-ecp5 make the bitstream. Then `litex_server --uart --uart-port=/dev/ttyUSB0`, and for example
-`RemoteClient("csr.csv")` with read(0x3000_0100), which is 0x454E4301 (--master clb: read(0x3000_0200), 0x454E4304; dsl: read(0x3000_0180), 0x454E4305). LiteX 2024.12 of PyPI; it also needs
-requests, setuptools, packaging.
+`RemoteClient("csr.csv")` with read(0x3000_0100), which is 0x454E4301 (--master clb: read(0x3000_0200), 0x454E4304; dsl:
+read(0x3000_0180), 0x454E4305). LiteX 2024.12 of PyPI; it also needs requests, setuptools, packaging.
 """
 
 import argparse
 
 from litex.build.generic_platform import IOStandard, Pins, Subsignal
 from litex.build.io import CRG
-from litex.gen import ClockDomain
 from litex.build.lattice import LatticePlatform
+from litex.gen import ClockDomain
 from litex.soc.cores.clock import ECP5PLL
 from litex.soc.integration.builder import Builder
 from litex.soc.integration.soc import SoCRegion
 from litex.soc.integration.soc_core import SoCMini
-
 from migen import ResetSignal
 
 from mb4_litex import BissClb, DslAxil, Mb4

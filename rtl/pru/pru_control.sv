@@ -9,8 +9,8 @@
 //
 // A frame's end takes the armed word: 14 frames with CDM = 0 follow, then START, then bits 31 to 1.
 // CDS 20 to 27 behind START are the result, 28 to 31 its CRC. A frame without MA takes no bit, one
-// without acknowledge takes one and its CDS counts as 0. end_o is high for one clock with the last
-// one.
+// without acknowledge takes one and its CDS counts as 0. end_o is high in the clock behind
+// the last one, when its results are there.
 // The host's write of the highest byte arms the word if the word then is not 0. A write in the
 // clock in which the word would be taken wins: the word is taken later.
 //
