@@ -68,13 +68,14 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder")
     parser.add_argument("--master", choices=ENCODER, default="mb4")
-    parser.add_argument("--bus", choices=("wishbone", "axi-lite"), default="wishbone")
+    parser.add_argument("--bus", choices=("wishbone", "axi-lite"), help="default: wishbone of mb4, axi-lite of the others")
     parser.add_argument("--features", default="single")
     parser.add_argument("--verilog")
     parser.add_argument("--baud", type=int, default=1_000_000)
     parser.add_argument("--build", action="store_true")
     arguments = parser.parse_args()
-    soc = Soc(arguments.master, arguments.bus, arguments.features, arguments.verilog, arguments.baud)
+    bus = arguments.bus or ("wishbone" if arguments.master == "mb4" else "axi-lite")
+    soc = Soc(arguments.master, bus, arguments.features, arguments.verilog, arguments.baud)
     Builder(soc, output_dir=arguments.folder, csr_csv=f"{arguments.folder}/csr.csv", compile_software=False,
             compile_gateware=arguments.build).build(build_name="soc", run=arguments.build)
 
