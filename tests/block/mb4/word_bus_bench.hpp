@@ -14,7 +14,7 @@
 #include <functional>
 #include <vector>
 
-#include "tests/block/biss/frame_bench.hpp"
+#include "tests/block/biss/edge_slave.hpp"
 #include "tests/support/model_context.hpp"
 
 namespace mb4test {
