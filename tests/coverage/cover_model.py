@@ -69,10 +69,14 @@ def share_counters(model, folder):
     """The counters of a class stand in one place, and a new instance does not clear them."""
     prefix = f"Vmeasured_{model.name}"
     changed_once(folder / f"{prefix}__Syms.h", r"(?m)^( *)(std::atomic<uint32_t> __Vcoverage\[\d+\];)$", r"\1static inline \2")
-    # Verilator's library clears a counter that is told to it.
-    root = folder / f"{prefix}___024root__Slow.cpp"
-    changed_once(root, r" \*count32p = 0;", " const uint32_t kept = *count32p;")
-    changed_once(root, r"(\n *VL_COVER_INSERT\([^;]*;)", r"\1\n    *count32p = kept;")
+    # Verilator's library clears a counter that is told to it; each class of the model tells its own.
+    classes = [path for path in sorted(folder.glob(f"{prefix}_*__Slow.cpp"))
+               if "count32p" in path.read_text(encoding="utf-8")]
+    if not classes:
+        raise SystemExit(f"{folder.name}: Verilator tells no counters")
+    for path in classes:
+        changed_once(path, r" \*count32p = 0;", " const uint32_t kept = *count32p;")
+        changed_once(path, r"(\n *VL_COVER_INSERT\([^;]*;)", r"\1\n    *count32p = kept;")
 
 
 def main():
