@@ -33,6 +33,8 @@ struct Protocol {
   void (*read)(TomlReader& reader, DeviceConfig& device, std::string& file);
   // The faults that only its slaves can have.
   std::span<const SlaveFault* const> faults{};
+  // Tables below a slave in which read() asks for all their keys, for those who list the keys.
+  std::string_view sample{};
 };
 
 // In the order in which they are listed to the user.

@@ -29,7 +29,7 @@ std::string line_of(const char* key, std::string_view value) {
 
 // Reads a scenario with one channel, slave and fault. An empty word leaves its line out.
 void read_sample(const Master& master, std::string_view protocol, std::string_view source,
-                 std::string_view kind, const char* more, std::vector<Found>& found) {
+                 std::string_view kind, std::string_view more, std::vector<Found>& found) {
   std::string text = "[master]\n" + line_of("type", master.type) +
                      "[chip]\n[chip.quirks]\n[host]\n[sim]\n[[channel]]\n[[channel.event]]\n"
                      "[[channel.slave]]\n" +
@@ -60,6 +60,9 @@ std::vector<Found> read_samples() {
         read_sample(*master, protocol->key, source, "", "", found);
       }
       read_sample(*master, protocol->key, "", "", "capture = \"\"\n", found);
+      if (!protocol->sample.empty()) {
+        read_sample(*master, protocol->key, "", "", protocol->sample, found);
+      }
     }
     read_sample(*master, "", "", "", "", found);  // knows the keys of all
     for (const FaultType& type : fault_types()) {

@@ -43,16 +43,10 @@ unsigned append(unsigned word, std::string_view block, bool pair, bool& positive
   return word << block.size() | (bits_of(block) ^ (invert ? all : 0U));
 }
 
-// A remainder, one bit at a time: `data` of `bits` bits times x^`degree`.
-std::uint32_t remainder(std::uint64_t data, unsigned bits, std::uint32_t polynomial,
-                        unsigned degree) {
-  std::uint32_t rest = 0;
-  for (unsigned i = 0; i < bits + degree; ++i) {
-    const bool next = i < bits && (data >> (bits - 1 - i) & 1U) != 0;
-    rest = rest << 1U | (next ? 1U : 0U);
-    if ((rest >> degree & 1U) != 0) rest ^= polynomial;
-  }
-  return rest;
+// A remainder goes on by one bit.
+std::uint32_t step(std::uint32_t rest, bool next, std::uint32_t polynomial, unsigned degree) {
+  rest = rest << 1U | (next ? 1U : 0U);
+  return (rest >> degree & 1U) != 0 ? rest ^ polynomial : rest;
 }
 
 constexpr std::uint32_t kPolynomial16 = 0x190D9;
@@ -95,16 +89,21 @@ std::optional<std::uint8_t> parameter_of(unsigned word) {
   return std::nullopt;
 }
 
-std::uint16_t check_safe(std::initializer_list<std::uint8_t> bytes) {
-  std::uint64_t data = 0;
-  for (const std::uint8_t byte : bytes) data = data << 8U | byte;
-  const auto bits = static_cast<unsigned>(bytes.size()) * 8;
-  return static_cast<std::uint16_t>(remainder(data, bits, kPolynomial16, 16) ^ 0x00FFU);
+std::uint16_t check_bytes(std::span<const std::uint8_t> bytes) {
+  std::uint32_t rest = 0;
+  for (const std::uint8_t byte : bytes) {
+    for (unsigned i = 8; i-- > 0;) rest = step(rest, (byte >> i & 1U) != 0, kPolynomial16, 16);
+  }
+  for (unsigned i = 0; i < 16; ++i) rest = step(rest, false, kPolynomial16, 16);
+  return static_cast<std::uint16_t>(rest ^ 0x00FFU);
 }
 
 std::uint16_t with_check(int acceleration) {
   const unsigned bits = static_cast<unsigned>(acceleration) & 0x7FFU;
-  return static_cast<std::uint16_t>(bits << 5U | (remainder(bits, 11, kPolynomial5, 5) ^ 0x1FU));
+  std::uint32_t rest = 0;
+  for (unsigned i = 11; i-- > 0;) rest = step(rest, (bits >> i & 1U) != 0, kPolynomial5, 5);
+  for (unsigned i = 0; i < 5; ++i) rest = step(rest, false, kPolynomial5, 5);
+  return static_cast<std::uint16_t>(bits << 5U | (rest ^ 0x1FU));
 }
 
 }  // namespace mb4::sim::dsl

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <initializer_list>
 #include <optional>
+#include <span>
 
 namespace mb4::sim::dsl {
 
@@ -28,8 +29,11 @@ class Coder {
 // The byte of a word in M_PAR. Nothing if a block of it is in no table.
 std::optional<std::uint8_t> parameter_of(unsigned word);
 
-// CRC16 of a safe channel, as it is sent.
-std::uint16_t check_safe(std::initializer_list<std::uint8_t> bytes);
+// CRC16 of a safe channel or a message, as it is sent.
+std::uint16_t check_bytes(std::span<const std::uint8_t> bytes);
+inline std::uint16_t check_safe(std::initializer_list<std::uint8_t> bytes) {
+  return check_bytes({bytes.begin(), bytes.size()});
+}
 // A second difference of 11 bits with its CRC5, as it is sent.
 std::uint16_t with_check(int acceleration);
 

@@ -25,12 +25,40 @@ constexpr std::string_view kFollows[] = {"ignore", "follow"};
 
 void know_keys(TomlReader& reader) {
   know_source_keys(reader);
-  reader.know({"position_bits",   "acceleration_bits", "index",         "signed",
-               "summary",         "safe2_bits",        "pipeline",      "s_par_bits",
-               "sync_frames",     "vsync_after",       "msync",         "first",
-               "vsync_phase",     "start_disparity",   "direction_bit", "lead_ns",
-               "lead_level",      "status2_k28",       "latency_ns",    "clock_ppm",
-               "broken_identity", "wrong_pattern",     "identity_flip", "vertical_k28"});
+  reader.know({"position_bits",
+               "acceleration_bits",
+               "index",
+               "signed",
+               "summary",
+               "safe2_bits",
+               "pipeline",
+               "s_par_bits",
+               "sync_frames",
+               "vsync_after",
+               "msync",
+               "first",
+               "vsync_phase",
+               "start_disparity",
+               "direction_bit",
+               "lead_ns",
+               "lead_level",
+               "status2_k28",
+               "latency_ns",
+               "clock_ppm",
+               "broken_identity",
+               "wrong_pattern",
+               "identity_flip",
+               "vertical_k28",
+               "resource",
+               "turn_bits",
+               "access_level",
+               "hardware_version",
+               "short_latency_frames",
+               "status_latency_frames",
+               "long_latency_frames",
+               "late_frames",
+               "short_inside_long",
+               "write_answer_data"});
 }
 
 void read_number(TomlReader& reader, const char* key, unsigned least, unsigned most,
@@ -111,6 +139,115 @@ void check_speed(TomlReader& reader, const DslSlaveConfig& config) {
                        " steps a frame");
 }
 
+// ---- Messages -----------------------------------------------------------------------------------
+
+constexpr unsigned kMaxFrames = 100'000;
+constexpr std::size_t kMaxBytes = 0x7FFF;
+
+using dsl::Resource;
+using dsl::ResourceType;
+
+constexpr std::string_view kTypeNames[] = {"node", "void",   "bit",      "u8",  "u16",
+                                           "u32",  "u64",    "i8",       "i16", "i32",
+                                           "i64",  "string", "structure"};
+
+// The key `value`: a number, a text, or a list of bytes.
+void read_value(TomlReader& reader, Resource& resource) {
+  const unsigned bytes = dsl::bytes_of(resource.type);
+  if (bytes != 0) {
+    const TomlValue* value = reader.value("value", {"integer"});
+    if (value != nullptr && !value->is(TomlValue::Kind::kInteger)) {
+      reader.fail("value", "expected an integer");
+    }
+    const std::int64_t number = value == nullptr ? 0 : value->integer;
+    const bool is_signed = resource.type >= ResourceType::kI8;
+    const unsigned bits = resource.type == ResourceType::kBit ? 1 : 8 * bytes;
+    const std::int64_t above = bits == 64 ? 0 : number >> (is_signed ? bits - 1 : bits);
+    if (above != 0 && !(is_signed && above == -1)) {
+      reader.fail("value", "does not fit into " + std::to_string(bits) + " bits");
+    }
+    for (unsigned i = bytes; i-- > 0;) {
+      resource.value.push_back(
+          static_cast<std::uint8_t>(static_cast<std::uint64_t>(number) >> 8U * i));
+    }
+    return;
+  }
+  if (resource.type != ResourceType::kString && resource.type != ResourceType::kStructure) return;
+  const TomlValue* value = reader.value("value", {"string", "array"});
+  if (value == nullptr) return reader.missing("value");
+  if (value->is(TomlValue::Kind::kText)) {
+    resource.value.assign(value->text.begin(), value->text.end());
+  } else if (value->is(TomlValue::Kind::kArray)) {
+    for (const TomlValue& item : value->items) {
+      if (!item.within(0, 255)) reader.fail_at(item.where, "value", "expected bytes");
+      resource.value.push_back(static_cast<std::uint8_t>(item.integer));
+    }
+  } else {
+    reader.fail("value", "expected text or a list of bytes");
+  }
+  if (resource.value.empty() || resource.value.size() > kMaxBytes) {
+    reader.fail("value", "expected 1 to " + std::to_string(kMaxBytes) + " bytes");
+  }
+}
+
+Resource read_resource(const TomlValue& table, TomlFile& file) {
+  constexpr ResourceType kTypes[] = {
+      ResourceType::kNode,     ResourceType::kVoid, ResourceType::kBit, ResourceType::kU8,
+      ResourceType::kU16,      ResourceType::kU32,  ResourceType::kU64, ResourceType::kI8,
+      ResourceType::kI16,      ResourceType::kI32,  ResourceType::kI64, ResourceType::kString,
+      ResourceType::kStructure};
+  constexpr unsigned kMaxTimeout = 0xFFFF;
+  TomlReader reader(table, file);
+  Resource resource;
+  if (!reader.has("id")) reader.missing("id");
+  read_number(reader, "id", 1, Resource::kMaxId, resource.id);
+  if (const auto name = reader.text("name")) {
+    resource.name = *name;
+    if (name->empty() || name->size() > Resource::kMaxName) {
+      reader.fail("name", "expected 1 to " + std::to_string(Resource::kMaxName) + " characters");
+    }
+  } else {
+    reader.missing("name");
+  }
+  const auto type = reader.choice("type", kTypeNames);
+  if (!type) reader.missing("type");
+  resource.type = kTypes[type.value_or(1)];
+  read_value(reader, resource);
+  read_number(reader, "parent", 0, Resource::kMaxId, resource.parent);
+  read_number(reader, "read_level", 0, Resource::kNever, resource.read_level);
+  read_number(reader, "write_level", 0, Resource::kNever, resource.write_level);
+  read_number(reader, "timeout_ms", 0, kMaxTimeout, resource.timeout_ms);
+  if (const auto frames = reader.integer("latency_frames", 0, kMaxFrames)) {
+    resource.latency = static_cast<unsigned>(*frames);
+  }
+  reader.finish();
+  return resource;
+}
+
+void read_messages(TomlReader& reader, const DslSlaveConfig& encoder, dsl::MessageConfig& config) {
+  if (const auto* tables = reader.tables("resource")) {
+    for (const TomlValue& table : *tables) {
+      config.resources.push_back(read_resource(table, reader.file()));
+      const auto same = [&](const Resource& each) {
+        return &each != &config.resources.back() && each.id == config.resources.back().id;
+      };
+      if (std::any_of(config.resources.begin(), config.resources.end(), same)) {
+        reader.fail_at(table.where, "resource",
+                       "there are two with id = " + std::to_string(config.resources.back().id));
+      }
+    }
+  }
+  read_number(reader, "turn_bits", 1, std::min(encoder.data_bits, 31U), config.turn_bits);
+  read_number(reader, "access_level", 0, Resource::kNever - 1, config.access_level);
+  read_byte(reader, "hardware_version", config.hardware_version);
+  read_number(reader, "short_latency_frames", 0, kMaxFrames, config.short_latency);
+  read_number(reader, "status_latency_frames", 0, kMaxFrames, config.status_latency);
+  read_number(reader, "long_latency_frames", 0, kMaxFrames, config.long_latency);
+  read_number(reader, "late_frames", 1, kMaxFrames, config.late);
+  config.short_inside_long = reader.boolean("short_inside_long").value_or(true);
+  config.write_answer_data = reader.boolean("write_answer_data").value_or(true);
+}
+
 void read(TomlReader& reader, DeviceConfig& device, std::string& file) {
   auto& config = static_cast<DslSlaveConfig&>(device);
   config.data_bits = 32;
@@ -157,12 +294,23 @@ void read(TomlReader& reader, DeviceConfig& device, std::string& file) {
   read_number(reader, "wrong_pattern", 0, 34, config.wrong_pattern);
   read_number(reader, "identity_flip", 0, 0xFFFFF, config.identity_flip);
   config.vertical_k28 = reader.boolean("vertical_k28").value_or(false);
+  config.messages = {};
+  read_messages(reader, config, config.messages);
 }
 
 }  // namespace
 
 const Protocol kDslProtocol{
-    "dsl",   &kDuplexLines, know_keys,          [] { return Device(DslSlaveConfig()); },
-    nullptr, read,          slave_fault::kOfDsl};
+    .key = "dsl",
+    .line = &kDuplexLines,
+    .know_keys = know_keys,
+    .blank = [] { return Device(DslSlaveConfig()); },
+    .presets = nullptr,
+    .read = read,
+    .faults = slave_fault::kOfDsl,
+    .sample =
+        "[[channel.slave.resource]]\nid = 1\nname = \"A\"\ntype = \"u8\"\n"
+        "[[channel.slave.resource]]\nid = 2\nname = \"B\"\ntype = \"string\"\n"
+        "value = \"B\"\n"};
 
 }  // namespace mb4::sim

@@ -3,6 +3,7 @@
 #include "sim/lines/dsl/dsl_slave.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "sim/lines/dsl/dsl_faults.hpp"
 
@@ -24,10 +25,15 @@ constexpr std::uint64_t kTestPattern = 0x4CC8115DFB33499;  // 60 bits, without t
 constexpr std::uint8_t kMarker1 = 0xFD;
 constexpr std::uint8_t kMarker2 = 0xFB;
 constexpr std::uint8_t kVsync = 0x80;
-constexpr std::uint8_t kIdleSymbol = 0x10;
 constexpr std::uint8_t kInitSymbol = 0x1F;
 constexpr std::uint8_t kStatus2 = 0x1C;
 constexpr std::uint8_t kToggle2 = 0x80;
+constexpr std::uint8_t kTest2 = 0x40;
+constexpr std::uint8_t kError2 = 0x20;
+constexpr std::uint8_t kWrongFix2 = 0x01;
+constexpr std::size_t kStatus0Address = 0x40;  // ENC_ST0
+constexpr std::uint8_t kProtocolReset = 0x01;
+constexpr std::uint8_t kOverflow = 0x02;
 
 // Symbols of the master.
 constexpr unsigned kMasterIdle = 0x10;
@@ -73,17 +79,42 @@ std::string_view DslSlaveConfig::refuses(const SlaveFault& fault) const {
 }
 
 DslSlave::DslSlave(const DslSlaveConfig& config)
-    : config_(config), bit_(kBitPs / (1 + config.clock_ppm * 1e-6)) {
+    : config_(config),
+      bit_(kBitPs / (1 + config.clock_ppm * 1e-6)),
+      messages_(config.messages, {.position_bits = config.data_bits, .is_signed = config.is_signed},
+                registers()) {
   set_drive(0, {true, false});
 }
 
 void DslSlave::set_fault(const SlaveFault& fault, bool on) {
-  if (fault == slave_fault::kWrongCrc2) wrong_crc2_ = on;
-  if (fault == slave_fault::kFastMarker) fast_marker_ = on;
-  if (fault == slave_fault::kSafeMarker) safe_marker_ = on;
-  if (fault == slave_fault::kSafe2Marker) safe2_marker_ = on;
-  if (fault == slave_fault::kNoVsync) no_vsync_ = on;
-  if (fault == slave_fault::kEarlyVsync) early_vsync_ = on;
+  dsl::MessageFaults& messages = messages_.faults();
+  const struct {
+    const SlaveFault& fault;
+    bool& flag;
+  } kFlags[] = {{slave_fault::kWrongCrc2, wrong_crc2_},
+                {slave_fault::kFastMarker, fast_marker_},
+                {slave_fault::kSafeMarker, safe_marker_},
+                {slave_fault::kSafe2Marker, safe2_marker_},
+                {slave_fault::kNoVsync, no_vsync_},
+                {slave_fault::kEarlyVsync, early_vsync_},
+                {slave_fault::kLateVsync, late_vsync_},
+                {slave_fault::kStaleSafe, stale_safe_},
+                {slave_fault::kSafe2Mismatch, mismatch2_},
+                {slave_fault::kToggle2, stuck_toggle2_},
+                {slave_fault::kTest2, test2_},
+                {slave_fault::kError2, error2_},
+                {slave_fault::kFix2, wrong_fix2_},
+                {slave_fault::kLostNibble, messages.lost_nibble},
+                {slave_fault::kWrongMessage, messages.wrong_crc},
+                {slave_fault::kMessageNak, messages.nak},
+                {slave_fault::kNoMessage, messages.silent},
+                {slave_fault::kLateMessage, messages.late},
+                {slave_fault::kForeignAddress, messages.foreign_address},
+                {slave_fault::kForeignDirection, messages.foreign_direction},
+                {slave_fault::kForeignLength, messages.foreign_length}};
+  for (const auto& each : kFlags) {
+    if (fault == each.fault) each.flag = on;
+  }
   DuplexSlave::set_fault(fault, on);
 }
 
@@ -202,7 +233,8 @@ void DslSlave::take_parameter(Time now) {
     return finish(now);
   }
   // Symbols of the training are whole bytes, so that one wrong bit of a running frame makes none.
-  const unsigned byte = parameter().value_or(kMasterIdle | kFirstBit | (msync_ ? kMsyncBit : 0U));
+  const std::optional<std::uint8_t> read = parameter();
+  const unsigned byte = read.value_or(kMasterIdle | kFirstBit | (msync_ ? kMsyncBit : 0U));
   const unsigned symbol = byte >= kMasterSync && byte <= kMasterReset ? byte
                           : (byte & kSymbol) == kMasterInit           ? kMasterInit
                                                                       : kMasterIdle;
@@ -222,7 +254,7 @@ void DslSlave::take_parameter(Time now) {
   if (started_ && changes && config_.msync == DslFollow::kFollow) {
     place_ = (kVertical - config_.vsync_phase) % kVertical;
   }
-  word_ = answer(symbol);
+  word_ = answer(symbol, read ? std::optional<unsigned>(byte & kSymbol) : std::nullopt);
   if (config_.first == DslFollow::kIgnore || (byte & kFirstBit) != 0) go_on();
 
   listening_ = false;
@@ -291,13 +323,14 @@ void DslSlave::miss() {
   if (vsync_sent_) {
     ++running_;
     count_frame();
+    messages_.miss();
   }
   go_on();
 }
 
 // ---- Answers ------------------------------------------------------------------------------------
 
-std::uint64_t DslSlave::answer(unsigned symbol) {
+std::uint64_t DslSlave::answer(unsigned symbol, std::optional<unsigned> seen) {
   inverted_ = noise();
   if (symbol >= kMasterStart && symbol <= kMasterCheck) return pattern() ^ inverted_;
   if (symbol == kMasterIdRequest) return identity() ^ inverted_;
@@ -305,15 +338,16 @@ std::uint64_t DslSlave::answer(unsigned symbol) {
     started_ = true;
     inits_ = 0;
     vsync_sent_ = false;
+    owes_vsync_ = false;
+    told_safe_.reset();
+    messages_.reset();
+    set_status0(kProtocolReset);
     msync_seen_ = true;
     place_ = (kVertical - config_.vsync_after % kVertical) % kVertical;
     fill_channels();
   }
-  if (symbol == kMasterInit) {
-    ++inits_;
-    vsync_sent_ = false;
-  }
-  const std::uint64_t word = data_frame();
+  if (symbol == kMasterInit && !vsync_sent_) ++inits_;
+  const std::uint64_t word = data_frame(seen);
   return word ^ inverted_;
 }
 
@@ -381,10 +415,12 @@ std::uint64_t DslSlave::identity() const {
 // The safe position is that of the sample before the vertical frame.
 void DslSlave::fill_channels() {
   const unsigned width = config_.data_bits;
+  if (!stale_safe_ || !told_safe_) told_safe_ = before_;
   const auto position =
-      config_.is_signed ? low_signed(before_, width) : static_cast<std::int64_t>(before_);
+      config_.is_signed ? low_signed(*told_safe_, width) : static_cast<std::int64_t>(*told_safe_);
   const unsigned width2 = config_.safe2_bits == 0 ? width : std::min(config_.safe2_bits, width);
-  const std::int64_t second = ~(position >> (width - width2));
+  std::int64_t second = ~(position >> (width - width2));
+  if (mismatch2_) second ^= std::int64_t{1} << (width2 - 1);
   const auto fill = [](Channel& channel, std::uint8_t status, std::int64_t value,
                        std::optional<std::uint8_t> marker) {
     channel.bytes[0] = status;
@@ -398,26 +434,58 @@ void DslSlave::fill_channels() {
     channel.bytes[6] = static_cast<std::uint8_t>(crc >> 8U);
     channel.bytes[7] = static_cast<std::uint8_t>(crc);
   };
-  toggle2_ = !toggle2_;
+  if (!stuck_toggle2_) toggle2_ = !toggle2_;
+  const unsigned status2 = (kStatus2 ^ (wrong_fix2_ ? kWrongFix2 : 0U)) |
+                           (toggle2_ ? kToggle2 : 0U) | (test2_ ? kTest2 : 0U) |
+                           (error2_ ? kError2 : 0U);
   fill(safe1_, config_.summary, position, safe_marker_ ? std::optional(kMarker1) : std::nullopt);
-  fill(safe2_, static_cast<std::uint8_t>(kStatus2 | (toggle2_ ? kToggle2 : 0U)), second,
+  fill(safe2_, static_cast<std::uint8_t>(status2), second,
        safe2_marker_ ? std::optional(kMarker2) : std::nullopt);
   if (wrong_crc()) safe1_.bytes[7] ^= 1U;
   if (wrong_crc2_) safe2_.bytes[7] ^= 1U;
 }
 
-std::uint64_t DslSlave::data_frame() {
+void DslSlave::set_status0(std::uint8_t bits) {
+  const std::uint8_t before = registers().get(kStatus0Address);
+  registers().set(kStatus0Address, static_cast<std::uint8_t>(before | bits));
+}
+
+// VSYNC, with its faults.
+bool DslSlave::vsync_now() {
   constexpr unsigned kLast = kVertical - 1;
+  const bool owed = std::exchange(owes_vsync_, false);
+  const bool due = place_ == kLast && inits_ >= config_.vsync_after;
+  if (due) vsync_sent_ = true;
+  if (no_vsync_) return early_vsync_ && place_ + 1 == kLast;
+  if (due && late_vsync_) {
+    owes_vsync_ = true;
+    return false;
+  }
+  return due || owed || (early_vsync_ && place_ + 1 == kLast);
+}
+
+std::uint8_t DslSlave::s_par(std::optional<unsigned> symbol) {
+  unsigned own = kInitSymbol;
+  if (vsync_sent_) {
+    own = messages_.frame(symbol);
+    if (symbol == kMasterInit) {
+      messages_.reset();
+      own = kInitSymbol;
+    }
+  }
+  return static_cast<std::uint8_t>((vsync_now() ? kVsync : 0U) | config_.s_par_bits << 5U | own);
+}
+
+std::uint64_t DslSlave::data_frame(std::optional<unsigned> symbol) {
   if (place_ == 0) fill_channels();
   const bool running = vsync_sent_;
-  bool vsync = place_ == kLast && inits_ >= config_.vsync_after;
-  if (vsync) vsync_sent_ = true;
-  if (no_vsync_) vsync = false;
-  if (early_vsync_ && place_ + 1 == kLast) vsync = true;
 
   const std::int64_t limit = std::int64_t{1} << (config_.acceleration_bits - 1);
   const bool fits = acceleration_ >= -limit && acceleration_ < limit;
-  overflowed_ |= !fits;
+  if (!fits) {
+    overflowed_ = true;
+    set_status0(kOverflow);
+  }
   dsl::Coder coder(config_.positive);
   const bool marked1 = safe1_.marked && place_ == 1;
   const bool marked2 = safe2_.marked && place_ == 1;
@@ -426,9 +494,7 @@ std::uint64_t DslSlave::data_frame() {
   const unsigned a = marked1    ? coder.special(kMarker1)
                      : special1 ? coder.special(first)
                                 : coder.data(first);
-  const auto s_par = static_cast<std::uint8_t>((vsync ? kVsync : 0U) | config_.s_par_bits << 5U |
-                                               (running ? kIdleSymbol : kInitSymbol));
-  const unsigned b = coder.data(s_par);
+  const unsigned b = coder.data(s_par(symbol));
   const unsigned c = coder.data(config_.pipeline);
   unsigned d = 0;
   unsigned e = 0;
@@ -442,7 +508,7 @@ std::uint64_t DslSlave::data_frame() {
   }
   const std::uint64_t five = join({a, b, c, d, e});
   const std::uint8_t second = safe2_.bytes[place_];
-  const bool special2 = place_ == 0 && config_.status2_k28;
+  const bool special2 = place_ == 0 && config_.status2_k28 && (second & 0x1FU) == kStatus2;
   const unsigned f = marked2    ? coder.special(kMarker2)
                      : special2 ? coder.special(second)
                                 : coder.data(second);

@@ -10,6 +10,7 @@
 //   data: a byte of each safe channel, S_PAR, the pipeline, the second difference of the position.
 // - It is silent up to the first START. Then a symbol that is none is answered as IDLE. A frame
 //   whose SYNC is not there gets no answer, and the count of its vertical frame goes on.
+// - M_PAR and S_PAR carry messages, once VSYNC has come (dsl_messages.hpp).
 // - A second difference that does not fit is the error marker K29.7; the position stays the true
 //   one.
 //
@@ -27,6 +28,7 @@
 
 #include "sim/core/time.hpp"
 #include "sim/lines/dsl/dsl_code.hpp"
+#include "sim/lines/dsl/dsl_messages.hpp"
 #include "sim/lines/duplex/duplex_slave.hpp"
 #include "sim/lines/sensor_config.hpp"
 
@@ -67,6 +69,7 @@ struct DslSlaveConfig : SensorConfig {
   unsigned identity_flip = 0;    // bits of the identity that are wrong in both copies
   bool vertical_k28 = false;     // bytes of safe channel 1 that end with 28 are special characters
   unsigned wrong_pattern = 0;    // training frame whose test pattern is wrong once; 0: none
+  dsl::MessageConfig messages;
 
   std::unique_ptr<Slave> make_slave(std::uint64_t seed) const override;
   DeviceTraits traits() const override;
@@ -98,6 +101,7 @@ class DslSlave final : public DuplexSlave {
   }
   // The position that it took `within` of a time, one of the last few; nothing if it took none.
   std::optional<std::uint64_t> sampled_near(Time at, Time within) const;
+  dsl::ParameterChannel& messages() { return messages_; }
   // A second difference did not fit.
   bool overflowed() const { return overflowed_; }
   // Bits of the last answer that were inverted by errors of the line or by flip(); the first bit of
@@ -131,11 +135,14 @@ class DslSlave final : public DuplexSlave {
   std::optional<std::uint8_t> parameter() const;
   void look_for_stuffing();
   bool level_at(double bits_behind_sample) const;
-  std::uint64_t answer(unsigned symbol);
+  std::uint64_t answer(unsigned symbol, std::optional<unsigned> seen);
+  std::uint8_t s_par(std::optional<unsigned> symbol);
+  bool vsync_now();
+  void set_status0(std::uint8_t bits);  // in ENC_ST0
   std::uint64_t pattern();
   std::uint64_t identity() const;
   // What a running frame carries. Named bits that are to be wrong go into inverted_.
-  std::uint64_t data_frame();
+  std::uint64_t data_frame(std::optional<unsigned> symbol);
   std::uint64_t noise();
   void fill_channels();
   void send(Time now);
@@ -181,7 +188,8 @@ class DslSlave final : public DuplexSlave {
 
   // Motion.
   std::uint64_t samples_ = 0;
-  std::array<Sample, 16> last_{};  // by the number of the sample
+  std::optional<std::uint64_t> told_safe_;  // by the last vertical frame
+  std::array<Sample, 16> last_{};           // by the number of the sample
   std::uint64_t position_ = 0;
   std::uint64_t before_ = 0;  // position of the frame before
   std::int64_t speed_ = 0;
@@ -195,12 +203,22 @@ class DslSlave final : public DuplexSlave {
   std::uint64_t running_ = 0;
   std::uint64_t inverted_ = 0;
 
+  dsl::ParameterChannel messages_;
+
   bool wrong_crc2_ = false;
   bool fast_marker_ = false;
   bool safe_marker_ = false;
   bool safe2_marker_ = false;
   bool no_vsync_ = false;
   bool early_vsync_ = false;
+  bool late_vsync_ = false;
+  bool owes_vsync_ = false;  // the late one comes with the next frame
+  bool stale_safe_ = false;
+  bool mismatch2_ = false;
+  bool stuck_toggle2_ = false;
+  bool test2_ = false;
+  bool error2_ = false;
+  bool wrong_fix2_ = false;
 };
 
 }  // namespace mb4::sim

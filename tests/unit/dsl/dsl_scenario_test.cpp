@@ -128,6 +128,47 @@ TEST(DslScenario, KeysAreRead) {
   EXPECT_EQ(encoder.source.step, 3);
 }
 
+TEST(DslScenario, KeysOfMessages_AreRead) {
+  const Scenario scenario = parse_scenario(
+      std::string(kMaster) + kMotor +
+          "turn_bits = 18\naccess_level = 3\nhardware_version = 9\nshort_latency_frames = 4\n"
+          "status_latency_frames = 6500\nlong_latency_frames = 50\nlate_frames = 7\n"
+          "short_inside_long = false\nwrite_answer_data = false\n"
+          "[[channel.slave.resource]]\nid = 0x300\nname = \"TEMP\"\ntype = \"i16\"\n"
+          "value = -5\nread_level = 1\nwrite_level = 2\ntimeout_ms = 80\nparent = 0x301\n"
+          "latency_frames = 12\n"
+          "[[channel.slave.resource]]\nid = 0x301\nname = \"OWN\"\ntype = \"node\"\n"
+          "[[channel.slave.resource]]\nid = 0x302\nname = \"PLATE\"\ntype = \"string\"\n"
+          "value = \"AB\"\n"
+          "[[channel.slave.resource]]\nid = 0x303\nname = \"RAW\"\ntype = \"structure\"\n"
+          "value = [1, 255]\n",
+      "motor.toml");
+  const dsl::MessageConfig& messages = encoder_of(scenario).messages;
+  EXPECT_EQ(messages.turn_bits, 18U);
+  EXPECT_EQ(messages.access_level, 3U);
+  EXPECT_EQ(messages.hardware_version, 9);
+  EXPECT_EQ(messages.short_latency, 4U);
+  EXPECT_EQ(messages.status_latency, 6500U);
+  EXPECT_EQ(messages.long_latency, 50U);
+  EXPECT_EQ(messages.late, 7U);
+  EXPECT_FALSE(messages.short_inside_long);
+  EXPECT_FALSE(messages.write_answer_data);
+  ASSERT_EQ(messages.resources.size(), 4U);
+  const dsl::Resource& temperature = messages.resources[0];
+  EXPECT_EQ(temperature.id, 0x300U);
+  EXPECT_EQ(temperature.name, "TEMP");
+  EXPECT_EQ(temperature.type, dsl::ResourceType::kI16);
+  EXPECT_EQ(temperature.value, (std::vector<std::uint8_t>{0xFF, 0xFB}));
+  EXPECT_EQ(temperature.read_level, 1U);
+  EXPECT_EQ(temperature.write_level, 2U);
+  EXPECT_EQ(temperature.timeout_ms, 80U);
+  EXPECT_EQ(temperature.parent, 0x301U);
+  EXPECT_EQ(temperature.latency, 12U);
+  EXPECT_EQ(messages.resources[2].value, (std::vector<std::uint8_t>{'A', 'B'}));
+  EXPECT_EQ(messages.resources[2].write_level, dsl::Resource::kNever);
+  EXPECT_EQ(messages.resources[3].value, (std::vector<std::uint8_t>{1, 255}));
+}
+
 TEST(DslScenario, WrongKeys_NameFileLineAndKey) {
   const struct {
     std::string text;
@@ -151,6 +192,29 @@ TEST(DslScenario, WrongKeys_NameFileLineAndKey) {
       {std::string(kMaster) + kMotor + "direction_bit = 2\n", "direction_bit"},
       {std::string(kMaster) + "[[channel]]\nnumber = 1\nanswer_errors = 0.2\n", "answer_errors"},
       {std::string(kMaster) + kMotor + "[[channel.slave]]\nprotocol = \"dsl\"\n", "slave"},
+      {std::string(kMaster) + kMotor + "turn_bits = 32\n", "turn_bits"},
+      {std::string(kMaster) + kMotor + "access_level = 15\n", "access_level"},
+      {std::string(kMaster) + kMotor + "[[channel.slave.resource]]\nid = 0x400\n", "id"},
+      {std::string(kMaster) + kMotor + "[[channel.slave.resource]]\nname = \"A\"\n", "id"},
+      {std::string(kMaster) + kMotor +
+           "[[channel.slave.resource]]\nid = 5\nname = \"LONGERONE\"\ntype = \"void\"\n",
+       "name"},
+      {std::string(kMaster) + kMotor +
+           "[[channel.slave.resource]]\nid = 5\nname = \"A\"\ntype = \"u8\"\nvalue = 256\n",
+       "value"},
+      {std::string(kMaster) + kMotor +
+           "[[channel.slave.resource]]\nid = 5\nname = \"A\"\ntype = \"i8\"\nvalue = -129\n",
+       "value"},
+      {std::string(kMaster) + kMotor +
+           "[[channel.slave.resource]]\nid = 5\nname = \"A\"\ntype = \"string\"\nvalue = 3\n",
+       "value"},
+      {std::string(kMaster) + kMotor +
+           "[[channel.slave.resource]]\nid = 5\nname = \"A\"\ntype = \"string\"\n",
+       "value"},
+      {std::string(kMaster) + kMotor +
+           "[[channel.slave.resource]]\nid = 5\nname = \"A\"\ntype = \"void\"\n"
+           "[[channel.slave.resource]]\nid = 5\nname = \"B\"\ntype = \"void\"\n",
+       "resource"},
       {std::string(kMaster) + kMotor + "[[fault]]\nkind = \"busy\"\nslave = 1\nat_us = 1\n",
        "slave"},
       {std::string("[[channel]]\nnumber = 1\n[[channel.slave]]\nprotocol = \"dsl\"\n"), "protocol"},

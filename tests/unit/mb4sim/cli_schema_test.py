@@ -55,7 +55,7 @@ class Schema(unittest.TestCase):
     def test_every_table_is_there(self):
         tables = dict(scenario_schema.tables_of(json.loads(TEXT)))
         self.assertEqual(set(tables), {"", "[master]", "[chip]", "[chip.quirks]", "[host]", "[sim]", "[[channel]]",
-                                       "[[channel.event]]", "[[channel.slave]]", "[[fault]]"})
+                                       "[[channel.event]]", "[[channel.slave]]", "[[channel.slave.resource]]", "[[fault]]"})
         self.assertGreater(sum(len(keys) for keys in tables.values()), 130)
 
     @unittest.skipIf(jsonschema is None, "python3-jsonschema is not installed")
