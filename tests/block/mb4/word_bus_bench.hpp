@@ -50,6 +50,8 @@ class WordBusBench {
     // one.
     core_runs_ = false;
     model->por_ni = 1;
+    // Random values from before the reset are no state of the chip.
+    model->contextp()->assertOn(false);
     for (const bool active : {false, true, true, false, false, false, true}) {
       model->por_ni = !active;
       reset(active);
@@ -58,6 +60,7 @@ class WordBusBench {
     }
     start_core();
     while (core_edges < 4) clock();
+    model->contextp()->assertOn(true);
     model->por_ni = 1;
     reset(false);
     for (int i = 0; i < 8; ++i) clock();
