@@ -76,7 +76,8 @@ Link::Link(const LinkRules& rules)
       receiver_(rules.sample, rules.rssi_table),
       motion_({.recover = rules.recover, .stale_limit = rules.stale_limit}),
       quality_(rules.quality),
-      safe_(rules.quality) {
+      safe_(rules.quality, rules.sdk_map),
+      host_({.check_answers = rules.check_answers, .sdk_map = rules.sdk_map}) {
   restarting_ = true;
 }
 
@@ -99,6 +100,7 @@ void Link::step() {
   if (left_ != 0) return;
   switch (state_) {
     case LinkState::kGap:
+      host_.reset_begins();
       return enter(LinkState::kReset, kResetFrames);
     case LinkState::kReset:
       return enter(LinkState::kSync, kSyncFrames);
@@ -160,7 +162,7 @@ void Link::next_frame() {
       parameter = kInit | kFirstBit;
       break;
     default:
-      parameter = kIdle | kFirstBit | (vertical_ ? kVerticalBit : 0U);
+      parameter = host_.symbol() | kFirstBit | (vertical_ ? kVerticalBit : 0U);
   }
   plan_.make(parameter, answer, shape, disparity_);
   end_ = plan_.bits() * kTicksPerBit;
@@ -176,6 +178,7 @@ void Link::restart(Restart reason) {
   last_restart_ = reason;
   plan_.drop_stuffing();
   end_ = plan_.bits() * kTicksPerBit;
+  if (frame_.linked) host_.link_ends();
   frame_.linked = false;
   frame_.lost = true;
   frame_.safe1.valid = frame_.safe2.valid = false;
@@ -246,6 +249,7 @@ void Link::take_identity() {
   frame_.lost = true;
   safe_.start();
   frame_.safe1 = frame_.safe2 = {};
+  frame_.checks = {};
   quality_.start();
   frame_.quality = quality_.value();
   motion_.start(position_bits_);
@@ -256,6 +260,8 @@ void Link::wait_for_vsync() {
   if (!parameter.error && (parameter.byte & kVsync) != 0) {
     place_ = 0;
     safe_.begin();
+    vsync_.start();
+    host_.link_begins();
     enter(LinkState::kRun, 0);
     return;
   }
@@ -270,6 +276,7 @@ void Link::run() {
   if (!words.parameter.error) {
     const bool vsync = (words.parameter.byte & kVsync) != 0;
     const bool last = place_ + 1 == kVertical;
+    vsync_.frame(place_, true, vsync);
     events.vsync_early = vsync && !last;
     events.vsync_missing = !vsync && last;
     events.vsync_good = vsync && last;
@@ -298,6 +305,8 @@ void Link::run() {
   frame_.lost = motion_.lost();
   const bool good = quality_.frame(events);
   frame_.quality = quality_.value();
+  if (frame_.safe_new) take_checks();
+  tell_host();
   place_ = (place_ + 1) % kVertical;
   if (!good) {
     restart(Restart::kQuality);
@@ -307,6 +316,29 @@ void Link::run() {
              !fits(frame_.safe1.position, position_bits_, (identity_ & kSigned) != 0)) {
     restart(Restart::kIdentity);
   }
+}
+
+void Link::take_checks() {
+  SafeFlags& checks = frame_.checks;
+  checks = safe_.flags();
+  vsync_.judge(checks);
+  checks.set(SafeCheck::kStale, motion_.disagreed());
+  if (!frame_.safe1.valid || !frame_.safe2.valid) return;
+  checks.set(SafeCheck::kMismatch, !positions_agree(frame_.safe1.position, position_bits_,
+                                                    frame_.safe2.position, host_.check_rules()));
+}
+
+void Link::tell_host() {
+  const Word& pipeline = frame_.words.pipeline;
+  if (!pipeline.error) pipeline_ = pipeline.byte;
+  host_.frame(frame_.words.parameter, {.linked = frame_.linked,
+                                       .lost = frame_.lost,
+                                       .low = quality_.low(),
+                                       .safe_new = frame_.safe_new,
+                                       .safe1 = frame_.safe1,
+                                       .safe2 = frame_.safe2,
+                                       .pipeline_error = pipeline.error,
+                                       .pipeline = pipeline_});
 }
 
 // Both safe channels bring a byte with each frame.

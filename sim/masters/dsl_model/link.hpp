@@ -14,6 +14,7 @@
 #include <optional>
 
 #include "sim/masters/dsl_model/frame_plan.hpp"
+#include "sim/masters/dsl_model/host_bytes.hpp"
 #include "sim/masters/dsl_model/line_code.hpp"
 #include "sim/masters/dsl_model/motion.hpp"
 #include "sim/masters/dsl_model/quality.hpp"
@@ -35,6 +36,7 @@ struct LinkRules {
   unsigned vsync_limit = 64;         // frames without VSYNC after the training; 0: no limit
   unsigned stale_limit = 2;          // MotionRules
   unsigned acceleration_limit = 31;  // words missing one after another; 0 is as 1
+  bool check_answers = true;         // MessageRules
 };
 
 enum class LinkState { kGap, kReset, kSync, kStart, kLearn, kCheck, kIdRequest, kWaitVsync, kRun };
@@ -89,6 +91,7 @@ struct LinkFrame {
   bool safe1_new = false;     // ... and safe1 was good
   SafeChannel safe1;          // not valid without a link
   SafeChannel safe2;
+  SafeFlags checks;                  // what the last vertical frame has failed
   Restart restart = Restart::kNone;  // the frame ends the link
 };
 
@@ -147,6 +150,14 @@ class Link {
   std::uint8_t edges() const { return receiver_.edges(); }
   const LinkFrame& frame() const { return frame_; }
   const FramePlan& plan() const { return plan_; }
+  // Registers of messages and events.
+  HostBytes& host() { return host_; }
+  const HostBytes& host() const { return host_; }
+  // POSTX: 0 from the sample edge to the end of the answer.
+  std::uint8_t position_state() const {
+    const bool asked = receiving_ && tick_ > plan_.sample_tick();
+    return asked && state_ == LinkState::kRun ? std::uint8_t{0} : host_.position_state();
+  }
   std::uint64_t ticks() const { return ticks_; }
 
  private:
@@ -159,6 +170,8 @@ class Link {
   void wait_for_vsync();
   void run();
   void take_safe(QualityEvents& events);
+  void take_checks();
+  void tell_host();
   void restart(Restart reason);
 
   LinkRules rules_;
@@ -167,6 +180,9 @@ class Link {
   Motion motion_;
   Quality quality_;
   SafeChannels safe_;
+  VsyncWatch vsync_;
+  HostBytes host_;
+  std::uint8_t pipeline_ = 0;  // the last good byte
   LinkListener* listener_ = nullptr;
 
   unsigned tick_ = 0;  // of the frame

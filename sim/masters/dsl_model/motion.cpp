@@ -72,6 +72,7 @@ void Motion::lose() {
 
 void Motion::vertical_end(std::optional<std::uint64_t> safe) {
   stale_ = safe ? 0 : stale_ + 1;
+  disagreed_ = false;
   if (lost_frames_ != 0) {
     recover(safe);
   } else if (safe) {
@@ -104,6 +105,7 @@ void Motion::align(std::uint64_t safe) {
       if (moved == fast_) {
         lost_ = false;
       } else {
+        disagreed_ = true;
         lose();
       }
   }

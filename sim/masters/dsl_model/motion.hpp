@@ -41,6 +41,8 @@ class Motion {
   std::uint64_t position() const { return fast_; }
   int speed() const { return speed_; }  // 24 bits, signed
   unsigned phase() const { return phase_; }
+  // At the last end of a vertical frame safe and fast position should have agreed, and did not.
+  bool disagreed() const { return disagreed_; }
   // Words missing one after another.
   unsigned missing() const { return missing_; }
 
@@ -63,6 +65,7 @@ class Motion {
   std::uint64_t since_ = 0;  // moved since the last end of a vertical frame
   bool lost_ = true;
   unsigned phase_ = 0;
+  bool disagreed_ = false;
   std::uint64_t kept_ = 0;  // phase 0's position, for phase 1
   unsigned missing_ = 0;
   unsigned stale_ = 0;  // vertical frames without a safe position, one after another
