@@ -17,6 +17,8 @@ axi_counters.sv
 axi_delays.sv
 axi_access.sv
 axi_extras.sv
+axi_host.sv
 axi_core.sv
 axi_widths.sv
 biss_axi.sv
+biss_spi.sv

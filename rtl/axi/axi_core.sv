@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// BiSS C master with N channels behind AXI4-Lite (instances, the common time base, the pins of
-// error and warning). biss_axi is the top with the document's names; switches_i is what its
-// parameters tie off. Extras says what there is beyond the document (axi_pkg::EXTRA_*); any of them
-// but EXTRA_ALIGN needs EXTRA_PAGE too.
+// BiSS C master with N channels behind AXI4-Lite, or with Spi = 1 behind SPI (instances, the common
+// time base, the pins of error and warning). biss_axi and biss_spi are the tops; switches_i is what
+// their parameters tie off. The pins of the other host do not count (axi_host). Extras says what
+// there is beyond the document (axi_pkg::EXTRA_*); any of them but EXTRA_ALIGN needs EXTRA_PAGE
+// too.
 //
-// Clock domain: clk_i. slo_i, ext_sample_clk_i and sample_en_i are asynchronous.
+// Clock domain: clk_i. slo_i, ext_sample_clk_i, sample_en_i and the pins of SPI are asynchronous.
 // Reset: rst_ni and por_ni may fall and rise at any time; both are released here with clk_i. por_ni
 // resets MA and its time base, rst_ni all the rest; while por_ni is 0 rst_ni must be 0. After a
 // reset each channel holds starts back for TimeoutLimit clocks.
@@ -19,6 +20,7 @@
 
 module axi_core #(
   parameter int unsigned Channels     = 1,     // 1 to 16
+  parameter bit          Spi          = 1'b0,  // the host: AXI4-Lite or SPI
   parameter int unsigned StreamMode   = 0,
   parameter logic [axi_pkg::EXTRAS_W-1:0] Extras = '0,
   parameter int unsigned StreamLane   = Extras[axi_pkg::EXTRA_WIDE] ? 64 : 32,  // mode 0
@@ -50,6 +52,12 @@ module axi_core #(
   input  logic             s_axi_rready,
   output logic [31:0]      s_axi_rdata,
   output logic [1:0]       s_axi_rresp,
+  // SPI
+  input  logic             sclk_i,
+  input  logic             cs_ni,
+  input  logic             mosi_i,
+  output logic             miso_o,
+  output logic             miso_oe_o,
   // AXI4-Stream
   output logic                   s_axis_tvalid,
   input  logic                   s_axis_tready,
@@ -134,36 +142,6 @@ module axi_core #(
     .clk_i,
     .rst_ni      (por_ni),
     .rst_sync_no (por_n)
-  );
-
-  enc_axil #(.AddrW(8)) u_axil (
-    .clk_i,
-    .rst_ni       (rst_n),
-    .s_axi_awvalid,
-    .s_axi_awready,
-    .s_axi_awaddr (s_axi_awaddr[7:2]),
-    .s_axi_wvalid,
-    .s_axi_wready,
-    .s_axi_wdata,
-    .s_axi_wstrb,
-    .s_axi_bvalid,
-    .s_axi_bready,
-    .s_axi_bresp,
-    .s_axi_arvalid,
-    .s_axi_arready,
-    .s_axi_araddr (s_axi_araddr[7:2]),
-    .s_axi_rvalid,
-    .s_axi_rready,
-    .s_axi_rdata,
-    .s_axi_rresp,
-    .word_req_o   (req),
-    .word_write_o (write),
-    .word_addr_o  (addr),
-    .word_data_o  (wdata),
-    .word_be_o    (be),
-    .word_ready_i (1'b1),
-    .word_data_i  (rdata),
-    .word_error_i (1'b0)
   );
 
   axi_regs #(.Channels(Channels)) u_regs (
@@ -332,6 +310,23 @@ module axi_core #(
     .s_axis_tlast
   );
 
+  axi_host #(.Spi(Spi)) u_host (
+    .clk_i,
+    .rst_ni       (rst_n),
+    .s_axi_awvalid, .s_axi_awready, .s_axi_awaddr,
+    .s_axi_wvalid, .s_axi_wready, .s_axi_wdata, .s_axi_wstrb,
+    .s_axi_bvalid, .s_axi_bready, .s_axi_bresp,
+    .s_axi_arvalid, .s_axi_arready, .s_axi_araddr,
+    .s_axi_rvalid, .s_axi_rready, .s_axi_rdata, .s_axi_rresp,
+    .sclk_i, .cs_ni, .mosi_i, .miso_o, .miso_oe_o,
+    .word_req_o   (req),
+    .word_write_o (write),
+    .word_addr_o  (addr),
+    .word_data_o  (wdata),
+    .word_be_o    (be),
+    .word_data_i  (rdata)
+  );
+
   always_ff @(posedge clk_i or negedge rst_n) begin
     if (!rst_n) begin
       error_q <= 1'b1;
@@ -344,7 +339,6 @@ module axi_core #(
 
   assign error_no = error_q;
   assign warn_no  = warn_q;
-  assign unused   = (^{s_axi_awaddr[1:0], s_axi_araddr[1:0], unused_sample, unused_half,
-                       unused_samples, unused_halves});
+  assign unused   = (^{unused_sample, unused_half, unused_samples, unused_halves});
 
 endmodule

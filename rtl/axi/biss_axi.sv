@@ -98,6 +98,8 @@ module biss_axi #(
   end
 `endif
 
+  logic unused_miso, unused_miso_oe;
+
   axi_widths #(
     .DataW    (S_AXIS_TDATA_WIDTH),
     .UserW    (S_AXIS_TUSER_WIDTH),
@@ -136,6 +138,11 @@ module biss_axi #(
     .s_axi_rready     (S_AXI_RREADY),
     .s_axi_rdata      (S_AXI_RDATA),
     .s_axi_rresp      (S_AXI_RRESP),
+    .sclk_i           (1'b0),
+    .cs_ni            (1'b1),
+    .mosi_i           (1'b0),
+    .miso_o           (unused_miso),
+    .miso_oe_o        (unused_miso_oe),
     .s_axis_tvalid,
     .s_axis_tready,
     .s_axis_tdata,

@@ -14,5 +14,6 @@ enc_crc.sv
 enc_time.sv
 enc_irq.sv
 enc_axil.sv
+enc_spi.sv
 enc_axis_fifo.sv
 enc_wb.sv

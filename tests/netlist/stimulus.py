@@ -388,6 +388,24 @@ def control_frame(steps):
         "rdata_i": rarely("rdata_i", 0.003, lambda s: s.rng.choice([0, 0x80, 0xC0, 0x5A]))})
 
 
+def enc_spi(steps):
+    """Frames of SPI with all opcodes, most of them whole, a word bus that waits now and then."""
+    steps.reset(["rst_ni"])
+    steps.step(cs_ni=1)
+    for number in range(60):
+        bits = 56 if steps.chance(0.7) else steps.rng.randint(1, 70)
+        value = steps.rng.choice([2, 2, 3, 3, 3, 4, 7]) << bits - 8 | steps.rng.getrandbits(bits - 8) if bits > 8 else 0
+        slow = 0.02 if steps.chance(0.2) else 0.7
+        for bit in range(-2, bits + 3):
+            for level in range(4):
+                inside = 0 <= bit < bits
+                steps.step(cs_ni=int(bit < -1 or bit > bits), sclk_i=int(inside and level > 1),
+                           mosi_i=value >> bits - 1 - bit & 1 if inside else 0, word_ready_i=int(steps.chance(slow)),
+                           word_error_i=int(steps.chance(0.1)), word_data_i=any_value(steps, "word_data_i"))
+                steps.clock("clk_i")
+    play(steps, ["clk_i"], ["rst_ni"], 3000, {"cs_ni": 0.02, "word_ready_i": 0.3})
+
+
 def mo_tx(steps):
     """Frames of a few words; a rising MA edge every second clock at most."""
     steps.reset(["rst_ni"])
@@ -552,6 +570,8 @@ MODULES = {
         "s_axi_rready": 0.7, "word_ready_i": 0.6, "word_error_i": 0.2}),
     "enc_wb": simple(*CORE, 4000, {
         "wb_cyc_i": 0.95, "wb_stb_i": 0.8, "word_ready_i": 0.6, "word_error_i": 0.2}),
+    # Frames with an edge of SCLK about every fourth clock, some of them whole.
+    "enc_spi": enc_spi,
     "enc_crc": simple(*CORE, 4000, {
         "load_i": 0.02, "shift_i": 0.8, "feed_i": 0.8, "poly_i": rarely("poly_i", 0.02),
         "last_i": rarely("last_i", 0.02)}),
@@ -587,6 +607,7 @@ PLANTED = {"struct_in_block": simple(*CORE, 500)}
 # Output bits that no input can change.
 CONSTANT = {
     "enc_axil": ["s_axi_bresp[0]", "s_axi_rresp[0]"],   # OKAY or SLVERR
+    "enc_spi": [f"word_be_o[{i}]" for i in (3, 2, 1, 0)],   # whole words
     "mb4_crc_decode": ["crc_poly_o[0]"],  # every polynomial ends in 1
     "mb4_cfg_regs": [f"rd_data_o[{i}]" for i in (7, 6, 5, 3, 2)],   # mb4_recent reads them back
     "mb4_word_list": ["offer_o[20]"],

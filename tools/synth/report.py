@@ -7,7 +7,7 @@
                                writes docs/resources.md; FOLDER is for what the tools leave.
                                --check: no file, but fails if mb4_core does not reach MIN_MHZ on
                                the HX8K with one seed. --axi: only the part about biss_axi anew; --sibling:
-                               that about biss_clb, biss_pru or dsl_axil; --mb4: all but these parts;
+                               that about biss_spi, biss_clb, biss_pru or dsl_axil; --mb4: all but these parts;
                                --presets: only the part about presets
 """
 
@@ -47,9 +47,13 @@ class Sibling(NamedTuple):
     parameters: dict = {}
     flags: str = ""          # of synth_ice40
     seeds: tuple = SEEDS
+    median: int = 0          # MHz of the seeds
+    up5k: bool = False       # its speed is on the page too
 
 
 SIBLINGS = {
+    "biss_spi": Sibling("axi", "[`biss_spi`](axi.md#biss_spi) with one channel and no extras; five seeds.", 600, 98, {}, "",
+                        (1, 2, 3, 4, 5), 105, True),
     "biss_clb": Sibling("clb", "[`biss_clb`](clb.md) with its page of identity, interrupt and time.", 650, 100),
     "biss_pru": Sibling("pru", "[`biss_pru`](pru.md) with a clock of 80 MHz.", 1100, 80, {"ClockHz": 80_000_000}),
     "dsl_axil": Sibling("dsl", "[`dsl_axil`](dsl.md) with a bus clock of its own and, on iCE40, `synth_ice40 -abc2`; "
@@ -218,21 +222,24 @@ def sibling_size(top, folder):
     return cells.get("SB_LUT4", 0), count(cells, "^SB_DFF"), count(cells, "^SB_RAM40")
 
 
-def sibling_speed(top, folder):
+def sibling_speed(top, folder, device="HX8K"):
     """MHz of the core's clock with each seed, of the netlist in the folder."""
     one = SIBLINGS[top]
-    return [route(top, folder, "HX8K", seed, one.mhz)["core"] for seed in one.seeds]
+    return [route(top, folder, device, seed, one.mhz)["core"] for seed in one.seeds]
 
 
 def sibling(top, folder):
     """The part of the page about a sibling."""
     one, place = SIBLINGS[top], folder / top
     lines = [f"## {top}", "", one.what, "",
-             "| LUT4 | flops | block RAM | HX8K clk_i / MHz | ECP5 LUT | ECP5 flops | Xilinx 7 LUT | Xilinx 7 flops |",
-             "|---|---|---|---|---|---|---|---|"]
+             "| LUT4 | flops | block RAM | HX8K clk_i / MHz | " + "UP5K clk_i / MHz | " * one.up5k +
+             "ECP5 LUT | ECP5 flops | Xilinx 7 LUT | Xilinx 7 flops |", "|---" * (8 + one.up5k) + "|"]
     row = [*sibling_size(top, place / "ice40")]
     found = sibling_speed(top, place / "ice40")
     row.append(f"{min(found):.0f}..{max(found):.0f}")
+    if one.up5k:
+        small = sibling_speed(top, place / "ice40", "UP5K")
+        row.append(f"{min(small):.0f}..{max(small):.0f}")
     for family, (command, lut, flop, _, _) in FAMILIES.items():
         stat = synthesise(command, top, place / family.replace(" ", "_"), "-flatten" if "xilinx" in command else "",
                           one.parameters)

@@ -7,6 +7,7 @@
                                                  --check: the size against its limit; --route: also the speed
 """
 
+import statistics
 import sys
 from pathlib import Path
 
@@ -34,6 +35,8 @@ def main():
         text += f"; HX8K {min(found):.0f}..{max(found):.0f} MHz"
         if min(found) < one.mhz:
             findings.append(f"{top}: {min(found):.1f} MHz, wanted {one.mhz}")
+        if statistics.median(found) < one.median:
+            findings.append(f"{top}: {statistics.median(found):.1f} MHz in the middle of the seeds, wanted {one.median}")
     project.finish(findings, text)
 
 
