@@ -243,6 +243,26 @@ struct ScanResult {
   std::string error;  // why there are none; empty: nobody else has answered
 };
 
+// A resource of an encoder, as its messages tell it.
+struct EncoderResource {
+  unsigned id = 0;
+  unsigned depth = 0;  // in the tree
+  std::string name{};
+  unsigned type = 0;  // its code
+  std::string_view type_name{};
+  unsigned size = 0;  // bytes
+  unsigned read_level = 0;
+  unsigned write_level = 0;
+  unsigned timeout_ms = 0;
+  std::string value{};  // for the user
+};
+
+struct EncoderTree {
+  std::vector<EncoderResource> resources;  // each node before what is below it
+  std::string error;                       // why they are not all; empty: they are
+  std::vector<sim::FaultRecord> faults;
+};
+
 // What the commands know of a master.
 struct MasterSupport {
   std::string_view type;  // as sim::Master::type
@@ -258,6 +278,8 @@ struct MasterSupport {
   bool coverage = false;  // sim::FunctionalCoverage knows it
   // Asks the slaves of a channel, of which nothing is known, who they are. Null: it cannot.
   ScanResult (*scan)(const sim::Scenario& scenario, const ScanRequest& request) = nullptr;
+  // Reads the resources of the encoder on its only line. Null: it cannot.
+  EncoderTree (*walk)(const sim::Scenario& scenario) = nullptr;
 };
 
 // Throws sim::ScenarioError if the commands do not know the scenario's master.

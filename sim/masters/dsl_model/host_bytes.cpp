@@ -135,7 +135,7 @@ std::uint8_t HostBytes::read(unsigned address) const {
     case at::kOffL:
       return messages_.address(Messages::kOffsetLow);
     case at::kPipeS:
-      return news_.pipeline_error ? 0x02 : 0x00;
+      return sdk_map_ ? std::uint8_t{0} : news_.pipeline_state;
     case at::kPipeD:
       return news_.pipeline;
     case at::kData:
@@ -231,6 +231,7 @@ void HostBytes::link_ends() {
   running_ = false;
   news_.linked = false;
   news_.lost = true;
+  news_.pipeline_state = pipe_bit::kEmpty;
   marked1_ = marked2_ = false;
   set(event_h_, true, on::kPos);
   end_causes();

@@ -71,6 +71,13 @@ inline constexpr std::uint8_t kSafeFres = 0x01;
 inline constexpr std::uint8_t kStart = 0x01;  // PC_CTRL
 }  // namespace host_bit
 
+// Bits of PIPE_S. One byte is kept, so none is lost.
+namespace pipe_bit {
+inline constexpr std::uint8_t kEmpty = 0x04;    // PEMP: none has come in this link
+inline constexpr std::uint8_t kError = 0x02;    // PERR: its code was wrong
+inline constexpr std::uint8_t kSpecial = 0x01;  // PSCI: it was a special character
+}  // namespace pipe_bit
+
 // What a frame of a link tells, for events and live states.
 struct FrameNews {
   bool linked = false;
@@ -79,8 +86,8 @@ struct FrameNews {
   bool safe_new = false;  // the end of a vertical frame
   SafeChannel safe1;
   SafeChannel safe2;
-  bool pipeline_error = false;
-  std::uint8_t pipeline = 0;
+  std::uint8_t pipeline_state = pipe_bit::kEmpty;  // of PIPE_S
+  std::uint8_t pipeline = 0;                       // the last good byte
 };
 
 // Five causes of an interrupt, each for a frame.

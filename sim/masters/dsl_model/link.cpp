@@ -331,13 +331,16 @@ void Link::take_checks() {
 void Link::tell_host() {
   const Word& pipeline = frame_.words.pipeline;
   if (!pipeline.error) pipeline_ = pipeline.byte;
+  const bool special = pipeline.special && !pipeline.error;
   host_.frame(frame_.words.parameter, {.linked = frame_.linked,
                                        .lost = frame_.lost,
                                        .low = quality_.low(),
                                        .safe_new = frame_.safe_new,
                                        .safe1 = frame_.safe1,
                                        .safe2 = frame_.safe2,
-                                       .pipeline_error = pipeline.error,
+                                       .pipeline_state = pipeline.error ? pipe_bit::kError
+                                                         : special      ? pipe_bit::kSpecial
+                                                                        : std::uint8_t{0},
                                        .pipeline = pipeline_});
 }
 

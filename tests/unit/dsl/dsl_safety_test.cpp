@@ -388,6 +388,19 @@ TEST(DslEvents, StatesOfTheSecondChannel_AreLive) {
   run_to_begin(bench);
   ASSERT_TRUE(bench.run_frames(80));
   EXPECT_EQ(host.read(address::kPipeD), 0x5A);
+  EXPECT_EQ(host.read(address::kPipeS), 0);
+  // A wrong word: it is told, and the byte stays.
+  unsigned errors = 0;
+  for (unsigned bit = 20; bit < 30; ++bit) {
+    bench.line().flip(bench.link().frame().number + 1, {bit});
+    ASSERT_TRUE(bench.run_frames(1));
+    const std::uint8_t state = host.read(address::kPipeS);
+    errors += state == pipe_bit::kError ? 1 : 0;
+    EXPECT_EQ(state == 0, host.read(address::kPipeD) != 0x5A);
+    ASSERT_TRUE(bench.run_frames(1));
+  }
+  EXPECT_GT(errors, 0U);
+  ASSERT_TRUE(bench.run_frames(4));  // up to the end of a vertical frame
   bench.encoder().set_fault(slave_fault::kTest2, true);
   std::uint8_t toggles = 0;
   for (unsigned i = 0; i < 4; ++i) {

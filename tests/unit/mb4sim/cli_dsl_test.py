@@ -163,7 +163,7 @@ class DslModel(MasterTest):
 
     def test_what_the_master_has_not_is_refused_in_one_line(self):
         scenario = self.path("[host]\nlink_ms = 1\n" + motor("cable_m = 200\n"))  # no link either
-        for arguments in (("regs", scenario), ("regs", scenario, "--json"), ("spi", scenario), ("scan", scenario),
+        for arguments in (("regs", scenario), ("regs", scenario, "--json"), ("spi", scenario),
                           ("bridge", scenario, "--unix", str(self.folder / "x")),
                           ("plot", scenario, "--read", "0x40"),
                           ("run", scenario, "--trace", str(self.folder / "x.fst")),
@@ -174,6 +174,57 @@ class DslModel(MasterTest):
             self.assertEqual(len(result.stderr.splitlines()), 1, (arguments, result.stderr))
             self.assertIn("BiSS C only" if "plot" in arguments else "dsl-model", result.stderr)
         self.assertEqual([path.name for path in self.folder.iterdir()], ["motor.toml"])
+
+    def has_messages(self):
+        if self.TYPE == "dsl-model":
+            return True
+        fields = json.loads(run("regs", self.path(motor()), "--json").stdout)["fields"]
+        return {field["name"]: field["value"] for field in fields}["MESSAGES_EVENTS"] == 1
+
+    def scan(self, text, *options):
+        return run("scan", self.path(text), "--json", *options)
+
+    def test_scan_prints_the_resources_of_the_encoder(self):
+        if not self.has_messages():
+            result = self.scan(motor())
+            self.assertEqual((result.returncode, result.stdout), (1, ""))
+            self.assertIn("this master sends no messages", result.stderr)
+            return
+        own = ('position_bits = 30\nturn_bits = 12\nsigned = true\naccess_level = 1\n'
+               '[[channel.slave.resource]]\nid = 0x210\nname = "OWN"\ntype = "node"\n'
+               '[[channel.slave.resource]]\nid = 0x211\nname = "TEXT"\ntype = "string"\nvalue = "0123456789AB"\n'
+               'parent = 0x210\nread_level = 1\nwrite_level = 2\ntimeout_ms = 300\n'
+               '[[channel.slave.resource]]\nid = 0x212\nname = "COLD"\ntype = "i32"\nvalue = -70000\nparent = 0x210\n'
+               '[[channel.slave.resource]]\nid = 0x213\nname = "NO"\ntype = "u8"\nvalue = 9\nread_level = 2\n'
+               '[[channel.slave.resource]]\nid = 0x3FF\nname = "RAW"\ntype = "structure"\nvalue = [1, 0xFE]\n')
+        result = self.scan(motor("cable_m = 40\n", own))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        found = {each["id"]: each for each in json.loads(result.stdout)["resources"]}
+        self.assertEqual(list(found), [0, 0x80, 0x81, 0x82, 0x86, 0x87, 0xD4, 0x100, 0x210, 0x211, 0x212, 0x213, 0x3FF])
+        self.assertEqual(found[0x211], {"id": 0x211, "depth": 2, "name": "TEXT", "type": "string", "size": 12,
+                                        "read_level": 1, "write_level": 2, "timeout_ms": 300,
+                                        "value": '"0123456789AB"'})
+        values = {each: found[each]["value"] for each in found}
+        self.assertEqual(values[0x81], str(2 ** 12))
+        self.assertEqual(values[0x82], str(2 ** 18))
+        self.assertEqual(values[0x212], "-70000")
+        self.assertEqual(values[0x213], "error 41/12")
+        self.assertEqual(values[0x3FF], "01 FE")
+        self.assertEqual(found[0]["name"], "ROOT")
+        self.assertEqual(values[0], "10 below")
+
+    def test_scan_says_why_it_has_failed(self):
+        if not self.has_messages():
+            return
+        for kind, why in (("no-message", "no answer within 5 ms"), ("message-nak", "was refused"),
+                          ("wrong-message", "its answer is wrong"), ("foreign-address", "no answer within 5 ms")):
+            fault = f'[[fault]]\nkind = "{kind}"\nslave = 1\nat_us = 1\n'
+            result = self.scan("[host]\nlink_ms = 5\n" + motor() + fault)
+            self.assertEqual(result.returncode, 1, kind)
+            self.assertIn(why, result.stderr)
+        result = self.scan("[host]\nlink_ms = 1\n" + motor("cable_m = 200\n"))
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("no link within 1 ms", result.stderr)
 
     def test_each_row_tells_speed_safe_position_quality_and_delay(self):
         source = 'source = "ramp"\nstart = -1000\nstep = 3\nsigned = true\nposition_bits = 30\n'
@@ -339,7 +390,7 @@ class DslRtl(DslModel):
 
     def test_what_the_master_has_not_is_refused_in_one_line(self):
         scenario = self.path(motor())
-        for arguments in (("spi", scenario), ("scan", scenario), ("plot", scenario, "--read", "0x40")):
+        for arguments in (("spi", scenario), ("scan", scenario, "--eds"), ("plot", scenario, "--read", "0x40")):
             result = run(*arguments)
             self.assertEqual(result.returncode, 2, arguments)
             self.assertEqual(result.stdout, "", arguments)

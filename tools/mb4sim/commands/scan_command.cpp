@@ -84,11 +84,58 @@ void print_json(const std::vector<ScannedSlave>& list, const std::string& notes)
   fmt::print("\n], \"notes\": {}}}\n", json_text(notes));
 }
 
+// ---- Resources of an encoder --------------------------------------------------------------------
+
+constexpr const char* kTreeRow = "{:<14}  {:<8}  {:<9}  {:>4}  {:>4}  {:>5}  {:>7}  {}";
+
+void print_tree(const std::vector<EncoderResource>& list) {
+  fmt::print(kTreeRow, "resource", "name", "type", "size", "read", "write", "time/ms", "value\n");
+  for (const EncoderResource& each : list) {
+    std::string row = fmt::format(
+        kTreeRow, fmt::format("{:{}}{:03X}h", "", 2 * each.depth, each.id), each.name,
+        each.type_name, each.size, each.read_level, each.write_level, each.timeout_ms, each.value);
+    row.resize(row.find_last_not_of(' ') + 1);  // a value may be empty
+    fmt::print("{}\n", row);
+  }
+}
+
+void print_tree_json(const std::vector<EncoderResource>& list) {
+  fmt::print("{{\"resources\": [");
+  const char* separator = "\n";
+  for (const EncoderResource& each : list) {
+    fmt::print(
+        "{}  {{\"id\": {}, \"depth\": {}, \"name\": {}, \"type\": {}, \"size\": {}, "
+        "\"read_level\": {}, \"write_level\": {}, \"timeout_ms\": {}, \"value\": {}}}",
+        separator, each.id, each.depth, json_text(each.name), json_text(each.type_name), each.size,
+        each.read_level, each.write_level, each.timeout_ms, json_text(each.value));
+    separator = ",\n";
+  }
+  fmt::print("\n]}}\n");
+}
+
+int walk_command(const sim::Scenario& scenario, const MasterSupport& support,
+                 const ScanOptions& options) {
+  if (options.eds) throw UseError("--eds: this encoder has no electronic data sheet");
+  support.check(scenario);
+  const EncoderTree found = support.walk(scenario);
+  print_faults(options.json, found.faults);
+  if (!found.error.empty()) print_error(options.json, found.error, kBad);
+  if (found.error.empty() || !found.resources.empty()) {
+    if (options.json) {
+      print_tree_json(found.resources);
+    } else {
+      print_tree(found.resources);
+    }
+  }
+  return found.error.empty() ? kGood : kBad;
+}
+
 }  // namespace
 
 int scan_command(const ScanOptions& options) {
   const sim::Scenario scenario = open_scenario(options.scenario);
   const MasterSupport& support = support_of(scenario);
+  if (support.walk != nullptr) return walk_command(scenario, support, options);
   if (support.scan == nullptr) {
     throw sim::ScenarioError(
         scenario.name, {}, "type",

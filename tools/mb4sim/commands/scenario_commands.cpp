@@ -165,7 +165,9 @@ void add_scan(CLI::App& app, Action& action) {
       "without "
       "control communication do not answer. IDs count from the far end: ID 0 is the slave farthest "
       "from SL.\n"
-      "Example: mb4sim scan examples/control-bus.toml --eds");
+      "With a DSL master: the resources of the encoder, read by messages.\n"
+      "Examples: mb4sim scan examples/control-bus.toml --eds\n"
+      "  mb4sim scan examples/dsl/messages.toml");
 }
 
 void add_regress(CLI::App& app, Action& action) {

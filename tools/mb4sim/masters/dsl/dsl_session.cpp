@@ -14,6 +14,7 @@
 #include <optional>
 
 #include "masters/dsl/dsl_readings.hpp"
+#include "masters/dsl/dsl_walk.hpp"
 #include "report/exit_status.hpp"
 #include "sim/lines/dsl/dsl_slave.hpp"
 #include "sim/lines/duplex/duplex_line.hpp"
@@ -295,7 +296,8 @@ const MasterSupport kDslSupport{.type = "dsl",
                                 .open = open_dsl,
                                 .not_begun = kNoPosition,
                                 .trains = true,
-                                .sweep = kDslSweep};
+                                .sweep = kDslSweep,
+                                .walk = walk_dsl};
 
 const MasterSupport kDslModelSupport{
     .type = "dsl-model",
@@ -308,6 +310,7 @@ const MasterSupport kDslModelSupport{
     .not_begun = kNoPosition,
     .registers = false,
     .trains = true,
-    .sweep = kDslSweep};
+    .sweep = kDslSweep,
+    .walk = walk_dsl};
 
 }  // namespace mb4::tool
