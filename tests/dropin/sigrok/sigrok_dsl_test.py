@@ -41,14 +41,48 @@ class Master:
 
 
 def read(text):
-    edges, frames = {OUT: [], ENABLE: [], IN: [], ENCODER: []}, []
+    edges, frames, messages = {OUT: [], ENABLE: [], IN: [], ENCODER: []}, [], []
     for line in text.splitlines():
         words = line.split()
         if words[0] == "F":
             frames.append(Master(words[1:]))
+        elif words[0] == "M":
+            messages.append(tuple(bytes.fromhex(word) for word in words[1:]))
         else:
             edges[int(words[0])].append((int(words[1]), int(words[2])))
-    return edges, frames
+    return edges, frames, messages
+
+
+def messages_of(decoded):
+    talk = importlib.import_module("dsl.message").Talk()
+    found = []
+    for frame in decoded:
+        if frame.symbol in ("RESET", "SYNC", "START", "LEARN", "CHECK", "ID REQ"):
+            talk.clear()
+        else:
+            found += talk.take(frame)
+    return found
+
+
+def check_messages(decoded, taken):
+    """The decoder has each message that went well, request and answer, in their order."""
+    found, texts = messages_of(decoded), set()
+    good = iter([message for message in found if message.good])
+    missing = 0
+    for request, answer in taken:
+        for data, is_answer in ((request, False), (answer, True)):
+            message = next((one for one in good if one.answer == is_answer and one.data == data), None)
+            missing += message is None
+            texts.add(message.text() if message else None)
+    bad = sum(not message.good for message in found)
+    print(f"messages: {len(taken)} went well, {missing} requests or answers were not found; {bad} were broken")
+    expected = {"write 7Fh = AB", "7Fh written", "read 7Fh", "7Fh is AB", "read 000h, 4 bytes", "000h: 52 4F 4F 54",
+                "read 081h, 8 bytes", "081h: 52 45 53 4F 4C 55 54 4E", "read 40h", "40h is 01",
+                "read 081h offset 3, 2 bytes", "081h: 00 0F", "write 000h value: 12 34", "000h value: error 41/10",
+                "read 082h value, 4 bytes", "082h value: 00 00 10 00"}
+    if texts != expected:
+        print(f"messages: {texts ^ expected}")
+    return missing == 0 and len(taken) > 100 and 0 < bad < len(taken) // 10 and texts == expected
 
 
 def decode(module, edges, drives=()):
@@ -236,11 +270,21 @@ def by_sigrok(root, edges, decoded, drives=(), inverted=False):
         path.write_text("\n".join(lines) + "\n", encoding="ascii")
         text = subprocess.run(
             ["sigrok-cli", "-I", f"vcd:downsample={DOWNSAMPLE}", "-i", path, "-P",
-             f"dsl:line=LINE{':en=EN' * bool(drives)}{':invert=yes' * inverted}", "-A", "dsl=states:safes:drivers"],
+             f"dsl:line=LINE{':en=EN' * bool(drives)}{':invert=yes' * inverted}", "-A", "dsl=states:safes:drivers:requests:replies"],
             check=True, capture_output=True, text=True,
             env={**os.environ, "SIGROKDECODE_DIR": str(Path(root).resolve() / "tools" / "sigrok")}).stdout
     printed = sorted(line.removeprefix("dsl-1: ") for line in text.splitlines())
     expected = [frame.symbol for frame in decoded]
+    messages = [message.text() for message in messages_of(decoded)]
+    if not messages:
+        print("no message")
+        return False
+    expected += messages
+    for frame in decoded:
+        byte, special = frame.words.get("s_par", (None, False))
+        if frame.symbol not in ("ID REQ", "INIT") and byte is not None and not special:
+            name = {0x15: "Short NAK", 0x1A: "Long NAK", 0x1F: "INIT"}.get(byte & 0x1F)
+            expected += [name] if name else []
     if drives:
         expected += ["Master", "Encoder", "Master"] * sum(frame.off is not None for frame in decoded)
     for frame in decoded:
@@ -261,7 +305,7 @@ def main():
     frames = sys.argv[3] if len(sys.argv) > 3 else "10000"
     text = subprocess.run([recording, frames], check=True, capture_output=True, text=True).stdout
     module = load(root)
-    edges, taken = read(text)
+    edges, taken, messages = read(text)
     decoded = decode(module, edges[IN])
     found, counts = differences(decoded, taken)
     for line in found[:20]:
@@ -272,6 +316,8 @@ def main():
     wrong, compared = check_encoder(edges)
     print(f"_IN against _ENCODER: {compared} edges, {wrong} differ")
     if wrong or compared < 100000:
+        return 1
+    if not check_messages(decoded, messages):
         return 1
     if not check_extra(module) or not check_samples(module, edges, decoded):
         return 1

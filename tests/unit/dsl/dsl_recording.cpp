@@ -6,7 +6,7 @@
 // (4 _OUT, 5 _EN, 6 _IN, 7 _ENCODER), and each answer as the master has taken it, `F SAMPLED STATE
 // RESTART ANSWER GOOD ERRORS POSITION SAFE SAFE2`: time of the edge in SAMPLE, 1 if the link ends
 // with it, 61 bits, 1 if the second difference is good, the number of words that are none, and the
-// safe positions of a good vertical frame or -.
+// safe positions of a good vertical frame or -. A message that went well is `M REQUEST ANSWER`.
 //
 //   dsl_recording FRAMES
 #include <bitset>
@@ -21,6 +21,8 @@ namespace {
 
 using namespace mb4::sim;
 using namespace mb4::sim::dsl_test;
+namespace at = dsl_model::host_address;
+namespace on = dsl_model::host_bit;
 
 struct Printer final : LineObserver {
   void frame_begun() override {}
@@ -53,6 +55,80 @@ void print(const LinkFrame& frame, LinkModel& model) {
               safe(frame.safe2).c_str());
 }
 
+// A host that sends one message after the other. What has become of a good one is printed: `M
+// REQUEST ANSWER` in hex, without CRC.
+class Host {
+ public:
+  explicit Host(dsl_model::HostBytes& host) : host_(host) {}
+
+  // Once a frame.
+  void acts() {
+    if (!running_) {
+      start(kMessages[next_ % std::size(kMessages)]);
+      return;
+    }
+    const Message& now = kMessages[next_ % std::size(kMessages)];
+    const std::uint8_t events = host_.read(at::kEventL);
+    if ((events & (now.is_long ? on::kFrel : on::kFres)) == 0) return;
+    if ((events & on::kAns) == 0) print(now);
+    host_.write(at::kEventL, 0);
+    running_ = false;
+    ++next_;
+  }
+
+ private:
+  struct Message {
+    bool is_long;
+    std::uint8_t first;   // SLAVE_REG_CTRL, PC_ADD_H
+    std::uint8_t second;  // PC_DATA, PC_ADD_L
+  };
+  static constexpr Message kMessages[] = {
+      {false, 0x7F, 0xAB}, {false, 0xFF, 0},   {true, 0xC8, 0x00}, {true, 0xCC, 0x81},
+      {false, 0xC0, 0},    {true, 0xE4, 0x81}, {true, 0x94, 0x00}, {true, 0xD8, 0x82}};
+  static constexpr std::uint8_t kOffset = 3;
+
+  void start(const Message& message) {
+    running_ = true;
+    if (!message.is_long) {
+      host_.write(at::kData, message.second);
+      host_.write(at::kControl, message.first);
+      return;
+    }
+    host_.write(at::kOffL, kOffset);
+    host_.write(at::kBuffer0, 0x12);
+    host_.write(at::kBuffer0 + 1, 0x34);
+    host_.write(at::kAddH, message.first);
+    host_.write(at::kAddL, message.second);
+    host_.write(at::kCtrl, on::kStart);
+  }
+  void print(const Message& message) const {
+    if (!message.is_long) {
+      const bool read = (message.first & 0x80) != 0;
+      const unsigned header = (message.first & 0x3FU) | (read ? 0x40U : 0U);
+      if (read) {
+        std::printf("M %02x %02x%02x\n", header, header, host_.read(at::kData));
+      } else {
+        std::printf("M %02x%02x %02x\n", header, message.second, header);
+      }
+      return;
+    }
+    std::printf("M %02x%02x", message.first | 0x80U, message.second);
+    if ((message.first & 0x20) != 0) std::printf("80%02x", kOffset);
+    if ((message.first & 0x40) == 0) std::printf("1234");
+    const std::uint8_t header = host_.read(at::kAddH);
+    const unsigned code = header >> 2U & 3U;
+    std::printf(" %02x%02x", header, host_.read(at::kAddL));
+    for (unsigned i = 0; i < (code == 0 ? 0U : 1U << code); ++i) {
+      std::printf("%02x", host_.read(at::kBuffer0 + i));
+    }
+    std::printf("\n");
+  }
+
+  dsl_model::HostBytes& host_;
+  std::size_t next_ = 0;
+  bool running_ = false;
+};
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -63,6 +139,7 @@ int main(int argc, char** argv) {
   setup.cable.answer_errors = 1e-4;
   Bench bench(setup);
   RandomMotion motion(bench.encoder(), 42);
+  Host host(bench.link().host());
   Printer printer;
   bench.line().observe(0, &printer, true);
   bench.on_frame = [&](const LinkFrame& frame) {
@@ -73,6 +150,7 @@ int main(int argc, char** argv) {
                                              &slave_fault::kWrongCrc2,   &slave_fault::kNoVsync,
                                              &slave_fault::kSafe2Marker, &slave_fault::kEarlyVsync};
     if (frame.number == 0) return;
+    host.acts();
     const SlaveFault& fault = *kFaults[frame.number / 500 % std::size(kFaults)];
     const std::uint64_t place = frame.number % 500;
     if (place == 100 || place == 112) {

@@ -3,18 +3,20 @@
 
 import sigrokdecode as srd
 
-from .frame import ANSWER, BITS, FIELDS, PARAMETER, SWITCH, TRAILER, Line
+from .frame import ANSWER, BITS, FIELDS, PARAMETER, SWITCH, TRAILER, TRAINING, Line
+from .message import NAMES, Talk
 
 '''
 OUTPUT_PYTHON format: packets [type, values]
  - 'FRAME': dict with symbol, answer (61 bits as text, or None), acceleration (or None), pattern (of a
    training frame: whether it is the right one)
+ - 'MESSAGE': dict with answer (from the encoder), data (bytes without the CRC), good
  - 'SAFE': dict with channel (1 or 2), status, position, good
 '''
 
 BIT_RATE = 9375000
 LEAST_RATE = 4 * BIT_RATE
-MASTER, STATE, WORD, MOTION, SAFE, WARNING, DRIVER = range(7)
+MASTER, STATE, WORD, MOTION, SAFE, WARNING, DRIVER, REQUEST, REPLY = range(9)
 
 
 class SamplerateError(Exception):
@@ -46,6 +48,8 @@ class Decoder(srd.Decoder):
         ('safe', 'Safe position'),
         ('warning', 'Warning'),
         ('driver', 'Who drives'),
+        ('request', 'Message to the encoder'),
+        ('reply', 'Message from the encoder'),
     )
     annotation_rows = (
         ('fields', 'Fields', (MASTER, WORD)),
@@ -53,6 +57,8 @@ class Decoder(srd.Decoder):
         ('states', 'Link', (STATE,)),
         ('motions', 'Motion', (MOTION,)),
         ('safes', 'Safe channels', (SAFE,)),
+        ('requests', 'Messages to the encoder', (REQUEST,)),
+        ('replies', 'Messages from the encoder', (REPLY,)),
         ('warnings', 'Warnings', (WARNING,)),
     )
 
@@ -61,7 +67,7 @@ class Decoder(srd.Decoder):
 
     def reset(self):
         self.samplerate = None
-        self.vertical_begin = None
+        self.talk = Talk()
 
     def metadata(self, key, value):
         if key == srd.SRD_CONF_SAMPLERATE:
@@ -91,6 +97,7 @@ class Decoder(srd.Decoder):
         self.show_driver(frame)
         if frame.answer is not None:
             self.show_answer(frame)
+        self.show_messages(frame)
         self.put(max(round(frame.begin), 0), round(end), self.out_python,
                  ['FRAME', dict(symbol=frame.symbol, answer=frame.answer,
                                 acceleration=frame.acceleration, pattern=frame.pattern)])
@@ -105,6 +112,24 @@ class Decoder(srd.Decoder):
         mistake = frame.driver_mistake()
         if mistake:
             self.warn(frame.at(SWITCH), frame.at(TRAILER), mistake)
+
+    def show_messages(self, frame):
+        if frame.symbol in (*TRAINING, 'RESET', 'SYNC', 'ID REQ'):
+            self.talk.clear()
+            return
+        byte, special = frame.words.get('s_par', (None, False))
+        name = None if byte is None or special else NAMES.get(byte & 0x1F)
+        if name is not None and frame.symbol != 'INIT':
+            self.annotate(frame.begin, frame.at(BITS), REPLY, [name])
+        for message in self.talk.take(frame):
+            begin, end = message.first.begin, message.last.at(BITS)
+            text = message.text()
+            self.annotate(begin, end, REPLY if message.answer else REQUEST, [text])
+            if not message.good:
+                self.warn(begin, end, f'Message {"from" if message.answer else "to"} the encoder: '
+                                      f'{"wrong CRC" if message.whole else text}')
+            self.put(max(round(begin), 0), round(end), self.out_python,
+                     ['MESSAGE', dict(answer=message.answer, data=message.data, good=message.good)])
 
     def warn(self, begin, end, text):
         self.annotate(begin, end, WARNING, [text])
