@@ -121,9 +121,9 @@ struct RegisterMap {
   std::vector<Field> fields;
 };
 
-// An access to registers of slaves, or a command to them.
+// An access to registers of slaves, or a command to them; with messages, a read of a resource too.
 struct ControlRequest {
-  enum class Kind { kRead, kWrite, kCommand };
+  enum class Kind { kRead, kWrite, kCommand, kResource };
   Kind kind = Kind::kRead;
   unsigned channel = 1;
   unsigned id = 0;                  // kRead, kWrite
@@ -131,6 +131,8 @@ struct ControlRequest {
   std::vector<std::uint8_t> bytes;  // to write; to be read: as many
   std::uint8_t code = 0;            // kCommand
   std::uint8_t ids = 0;             // kCommand: bit n is ID n; 0: all
+  unsigned resource = 0;            // kResource
+  unsigned offset = 0;              // kResource: what is read of it; 0: its name
 };
 
 struct SessionOptions {
@@ -157,7 +159,7 @@ class Session {
   virtual std::span<const WordColumn> columns() const { return all_word_columns(); }
   // Only if the master has MasterSupport::registers.
   virtual RegisterMap registers();
-  // For masters with MasterSupport::control. Returns why this failed, or empty.
+  // For masters with MasterSupport::control or ::messages. Returns why this failed, or empty.
   virtual std::string access(const ControlRequest& request);
 
   // What the host does by hand, a line as `mb4sim spi` reads it. Returns what is wrong with it, or
@@ -274,7 +276,8 @@ struct MasterSupport {
   bool registers = true;                                     // Session::registers()
   bool trains = false;  // it learns its line first, which a bad line does not allow
   SweepCodes sweep{};
-  bool control = false;   // Session::access()
+  bool control = false;   // Session::access() to registers of slaves, and commands
+  bool messages = false;  // Session::access() to a register, a byte each, and to resources
   bool coverage = false;  // sim::FunctionalCoverage knows it
   // Asks the slaves of a channel, of which nothing is known, who they are. Null: it cannot.
   ScanResult (*scan)(const sim::Scenario& scenario, const ScanRequest& request) = nullptr;

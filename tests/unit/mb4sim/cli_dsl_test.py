@@ -165,14 +165,16 @@ class DslModel(MasterTest):
         scenario = self.path("[host]\nlink_ms = 1\n" + motor("cable_m = 200\n"))  # no link either
         for arguments in (("regs", scenario), ("regs", scenario, "--json"), ("spi", scenario),
                           ("bridge", scenario, "--unix", str(self.folder / "x")),
-                          ("plot", scenario, "--read", "0x40"),
+                          ("plot", scenario, "--command", "0"), ("plot", scenario, "--read", "0x3F"),
+                          ("plot", scenario, "--read", "0x40:2"), ("plot", scenario, "--resource", "0x400"),
+                          ("plot", scenario, "--resource", "1", "--read", "0x40"),
                           ("run", scenario, "--trace", str(self.folder / "x.fst")),
                           ("run", scenario, "--bus-log", str(self.folder / "x.log"))):
             result = run(*arguments)
             self.assertEqual(result.returncode, 2, arguments)
             self.assertEqual(result.stdout, "", arguments)
             self.assertEqual(len(result.stderr.splitlines()), 1, (arguments, result.stderr))
-            self.assertIn("BiSS C only" if "plot" in arguments else "dsl-model", result.stderr)
+            self.assertIn("--" if "plot" in arguments else "dsl-model", result.stderr)
         self.assertEqual([path.name for path in self.folder.iterdir()], ["motor.toml"])
 
     def has_messages(self):
@@ -293,6 +295,38 @@ class DslModel(MasterTest):
                 "".join("".join(row) for row in digits.values() if set(row) <= {"0", "1"}),
                 " ".join(text for kind, text in texts if kind == "note"), picture)
 
+    def message(self, *arguments, slave=""):
+        svg = self.folder / "message.svg"
+        result = run("plot", self.path("[host]\nlink_ms = 3\n" + motor("cable_m = 30\n", slave)), *arguments,
+                     "--svg", str(svg))
+        return result.returncode, svg.read_text(encoding="utf-8") if svg.exists() else "", result.stderr
+
+    def test_plot_shows_messages(self):
+        if not self.has_messages():
+            return
+        # The golden messages, and what the encoder holds.
+        for arguments, there, back in ((("--read", "0x7F"), "7F 8A 44", "7F 01 71 47"),
+                                       (("--write", "0x7F:0xAB"), "3F AB AE 93", "3F 0D CE"),
+                                       (("--resource", "0x081"), "CC 81 C1 0B",
+                                        "CC 81 52 45 53 4F 4C 55 54 4E DB 8C")):
+            status, picture, _ = self.message(*arguments)
+            self.assertEqual(status, 0, arguments)
+            self.assertIn(f"To the encoder: {there}<", picture)
+            self.assertIn(f"From the encoder: {back}<", picture)
+        status, picture, _ = self.message("--resource", "0x081:3")
+        self.assertIn("To the encoder: E4 81 80 03 ", picture)
+        self.assertIn("From the encoder: C4 81 00 0F ", picture)
+        # What is wrong, in the picture and in the status.
+        status, _, error = self.message("--resource", "0x3FF")
+        self.assertEqual((status, error), (1, "mb4sim: error 40/10\n"))
+        for kind, text in (("wrong-message", "cut short, or its CRC is wrong"), ("no-message", "From the encoder: nothing"),
+                           ("message-nak", ">NAK<")):
+            fault = f'[[fault]]\nkind = "{kind}"\nslave = 1\nat_us = 1\n'
+            status, picture, error = self.message("--resource", "0x081", slave=fault)
+            self.assertEqual(status, 1, kind)
+            self.assertIn(text, picture)
+            self.assertIn("resource 081h", error)
+
     def test_plot_shows_the_bytes_that_the_encoder_sends(self):
         keys = "pipeline = 0xA5\nsummary = 0x81\ns_par_bits = 2\ndata = 0x12345678\nstart_disparity = 1\n"
         for metres, rule in ((0, 0), (37, 1), (100, 2)):
@@ -390,7 +424,7 @@ class DslRtl(DslModel):
 
     def test_what_the_master_has_not_is_refused_in_one_line(self):
         scenario = self.path(motor())
-        for arguments in (("spi", scenario), ("scan", scenario, "--eds"), ("plot", scenario, "--read", "0x40")):
+        for arguments in (("spi", scenario), ("scan", scenario, "--eds"), ("plot", scenario, "--command", "0")):
             result = run(*arguments)
             self.assertEqual(result.returncode, 2, arguments)
             self.assertEqual(result.stdout, "", arguments)

@@ -133,7 +133,8 @@ struct PlotOptions {
   unsigned id = 0;       // of the slave whose registers are meant
   std::string read;      // "ADDRESS[:COUNT]"
   std::string write;     // "ADDRESS:BYTE,..."
-  std::string command;   // "CODE[:ID,...]"; all empty: a frame
+  std::string command;   // "CODE[:ID,...]"
+  std::string resource;  // "ID[:OFFSET]"; all empty: a frame
   std::string title;     // empty: made from the above
   std::string svg;       // empty: standard output, unless there is another file
   std::string wavejson;  // empty: none

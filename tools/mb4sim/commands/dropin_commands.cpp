@@ -92,6 +92,11 @@ void add_plot(CLI::App& app, Action& action) {
                   "Instead of a frame: a command (without ID to all)")
       ->type_name("CODE[:ID,...]")
       ->check(file_name());
+  plot.add_option("--resource", options->resource,
+                  "DSL: instead of a frame: a message that reads the name of a resource, or by its "
+                  "offset what else is said of it")
+      ->type_name("ID[:OFFSET]")
+      ->check(file_name());
   plot.add_option("--id", options->id, "Slave for --read and --write (default 0, the last one)")
       ->type_name("ID")
       ->transform(whole_number(0, 7));
@@ -107,7 +112,8 @@ void add_plot(CLI::App& app, Action& action) {
   plot.footer(
       "Exit status 1 if the frame is bad.\n"
       "Example: mb4sim plot examples/resolute-26.toml --svg frame.svg\n"
-      "Example: mb4sim plot examples/control-bus.toml --read 0x44:2 --id 2 --svg read.svg");
+      "Example: mb4sim plot examples/control-bus.toml --read 0x44:2 --id 2 --svg read.svg\n"
+      "Example: mb4sim plot examples/dsl/messages.toml --read 0x7F --svg ping.svg");
 }
 
 }  // namespace

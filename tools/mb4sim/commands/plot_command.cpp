@@ -88,25 +88,54 @@ ControlRequest command_of(const std::string& text) {
   return command;
 }
 
+ControlRequest resource_of(const std::string& text) {
+  const auto [id, offset] = halves(text, ':');
+  ControlRequest request;
+  request.kind = ControlRequest::Kind::kResource;
+  request.resource = number(id, 0x3FF, "--resource");
+  if (!offset.empty() || text.ends_with(':')) {
+    request.offset = number(offset, 0x7FFF, "--resource");
+  }
+  return request;
+}
+
 bool is_control(const PlotOptions& options) {
-  return !options.read.empty() || !options.write.empty() || !options.command.empty();
+  return !options.read.empty() || !options.write.empty() || !options.command.empty() ||
+         !options.resource.empty();
 }
 
 ControlRequest request_of(const PlotOptions& options) {
-  ControlRequest request = !options.read.empty()    ? read_access(options.read)
-                           : !options.write.empty() ? write_access(options.write)
-                                                    : command_of(options.command);
+  ControlRequest request = !options.read.empty()      ? read_access(options.read)
+                           : !options.write.empty()   ? write_access(options.write)
+                           : !options.command.empty() ? command_of(options.command)
+                                                      : resource_of(options.resource);
   request.channel = options.channel;
   request.id = options.id;
   return request;
+}
+
+// A message has one byte, and commands are none.
+void check_message(const PlotOptions& options) {
+  if (!options.command.empty())
+    throw UseError("--command: control frames are drawn of BiSS C only");
+  const ControlRequest request = request_of(options);
+  if (request.kind == ControlRequest::Kind::kResource) return;
+  constexpr std::uint8_t kLowest = 0x40;
+  const char* const option = options.read.empty() ? "--write" : "--read";
+  if (request.address < kLowest) {
+    throw UseError(fmt::format("{}: registers of this encoder are 0x40 to 0x7F", option));
+  }
+  if (request.bytes.size() != 1) throw UseError(fmt::format("{}: a message has one byte", option));
 }
 
 // --- doing it ------------------------------------------------------------------------------------
 
 void check(const PlotOptions& options, const sim::Scenario& scenario) {
   const unsigned asked = (options.read.empty() ? 0U : 1U) + (options.write.empty() ? 0U : 1U) +
-                         (options.command.empty() ? 0U : 1U);
-  if (asked > 1) throw UseError("only one of --read, --write and --command is possible");
+                         (options.command.empty() ? 0U : 1U) + (options.resource.empty() ? 0U : 1U);
+  if (asked > 1) {
+    throw UseError("only one of --read, --write, --command and --resource is possible");
+  }
   const sim::ChannelConfig* channel = scenario.channel(options.channel);
   if (channel == nullptr || channel->slaves.empty()) {
     throw UseError(
@@ -116,10 +145,15 @@ void check(const PlotOptions& options, const sim::Scenario& scenario) {
     throw UseError(fmt::format("{}: there is no picture of \"{}\"", options.scenario,
                                channel->protocol().title));
   }
-  if (is_control(options) && !channel->protocol().control) {
+  const bool messages = support_of(scenario).messages;
+  if (is_control(options) && !channel->protocol().control && !messages) {
     throw UseError("control frames are drawn of BiSS C only");
   }
-  if (is_control(options) && !support_of(scenario).control) {
+  if (!options.resource.empty() && !messages) {
+    throw UseError("--resource: only an encoder with DSL has resources");
+  }
+  if (is_control(options) && messages) check_message(options);
+  if (is_control(options) && !support_of(scenario).control && !messages) {
     throw UseError(fmt::format("{}: the master \"{}\" makes no control frames", options.scenario,
                                scenario.master->type));
   }

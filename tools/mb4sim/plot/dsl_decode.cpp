@@ -259,6 +259,32 @@ std::string parameter_text(std::optional<std::uint8_t> parameter) {
   return text;
 }
 
+std::vector<DslExchange> dsl_exchanges(const Wave& line, double bit) {
+  std::vector<DslExchange> found;
+  if (line.edges.empty()) return found;
+  std::optional<double> late;
+  const sim::Time end = line.edges.back().time;
+  for (const sim::Time edge : sample_edges(line, end, bit)) {
+    DslFrame frame = begun(line, edge, bit);
+    if (frame.at(kFrameBits) > end) break;
+    if (frame.training()) late = measure(line, frame);
+    if (!frame.has_answer()) found.clear();  // a link begins
+    const unsigned symbol = frame.parameter ? symbol_of(*frame.parameter) : unsigned{kIdle};
+    if (!late || !frame.has_answer() || frame.training() || symbol == kIdRequest) continue;
+    frame.late = late;
+    unsigned bits = 0;
+    for (unsigned i = 10; i < 20; ++i) {
+      bits = bits << 1U | (line.at(frame.answer_at(i + 0.5)) ? 1U : 0U);
+    }
+    const DslWord word = dsl_word(bits);
+    DslExchange exchange;
+    if (frame.parameter) exchange.sent = symbol;
+    if (!word.error && !word.special) exchange.answered = word.byte & 0x1FU;
+    found.push_back(exchange);
+  }
+  return found;
+}
+
 DslFrame decode_dsl(const Wave& line, sim::Time sampled, double bit) {
   const auto near = static_cast<sim::Time>(2 * bit);
   std::vector<sim::Time> edges = sample_edges(line, sampled + near, bit);

@@ -53,6 +53,14 @@ struct DslFrame {
   sim::Time answer_at(double place) const;
 };
 
+// The symbols of a running frame, five bits each. Nothing: none could be read.
+struct DslExchange {
+  std::optional<unsigned> sent;      // M_PAR
+  std::optional<unsigned> answered;  // S_PAR
+};
+// Those of all frames behind the training.
+std::vector<DslExchange> dsl_exchanges(const Wave& line, double bit);
+
 // "IDLE, first, msync".
 std::string parameter_text(std::optional<std::uint8_t> parameter);
 

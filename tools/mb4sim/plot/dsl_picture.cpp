@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "plot/dsl_decode.hpp"
+#include "plot/dsl_message.hpp"
 #include "plot/dsl_seen.hpp"
 #include "plot/timing_svg.hpp"
 #include "report/exit_status.hpp"
@@ -153,6 +154,14 @@ Diagram DslPicture::diagram(const DslFrame& frame) const {
 }
 
 Picture DslPicture::draw(const PictureRequest& request, sim::Time /*now*/) const {
+  if (request.control) {
+    auto message = dsl_message_picture(dsl_exchanges(line(), kTicksPerBit * tick_));
+    if (!message) throw UseError(fmt::format("{}: there was no message", request.scenario));
+    message->diagram.title = request.title.empty()
+                                 ? fmt::format("Message on channel {}", channel_.number)
+                                 : request.title;
+    return *message;
+  }
   if (!seen_) throw UseError(fmt::format("{}: there was no frame", request.scenario));
   const DslFrame frame = decode_dsl(line(), seen_->sampled, kTicksPerBit * tick_);
   Diagram all = diagram(frame);

@@ -90,6 +90,18 @@ std::optional<std::uint8_t> dsl_parameter(unsigned word) {
   return std::nullopt;
 }
 
+// x^16 + x^15 + x^12 + x^7 + x^6 + x^4 + x^3 + 1, the low byte inverted.
+std::uint16_t dsl_check(std::span<const std::uint8_t> bytes) {
+  unsigned rest = 0;
+  for (const std::uint8_t byte : bytes) {
+    for (unsigned bit = 8; bit-- > 0;) {
+      const bool out = ((rest >> 15U ^ byte >> bit) & 1U) != 0;
+      rest = (rest << 1U & 0xFFFFU) ^ (out ? 0x90D9U : 0U);
+    }
+  }
+  return static_cast<std::uint16_t>(rest ^ 0x00FFU);
+}
+
 // K28.x stands for a byte; behind the block 110000 its upper bits are those of a data word here, as
 // a single wrong bit of D7.x could pass CRC5 otherwise.
 std::optional<int> dsl_second_difference(unsigned high, unsigned low) {

@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 
 namespace mb4::tool {
 
@@ -28,6 +29,8 @@ struct DslWord {
 DslWord dsl_word(unsigned word);
 // The byte of M_PAR, whose two blocks the equaliser may have inverted each. Nothing: no such block.
 std::optional<std::uint8_t> dsl_parameter(unsigned word);
+// CRC16 of a message over these bytes, as it is sent.
+std::uint16_t dsl_check(std::span<const std::uint8_t> bytes);
 // The second difference of two words with a right CRC5.
 std::optional<int> dsl_second_difference(unsigned high, unsigned low);
 

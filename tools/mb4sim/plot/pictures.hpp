@@ -21,7 +21,7 @@ namespace mb4::tool {
 
 struct PictureRequest {
   unsigned frame = 1;    // counted from 1
-  bool control = false;  // of a control frame, for protocols with LineProtocol::control
+  bool control = false;  // of a control frame, or of a message
   std::string scenario;  // its name, for messages
   std::string title;     // empty: made from the above
 };

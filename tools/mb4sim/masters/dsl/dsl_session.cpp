@@ -14,6 +14,7 @@
 #include <optional>
 
 #include "masters/dsl/dsl_readings.hpp"
+#include "masters/dsl/dsl_talk.hpp"
 #include "masters/dsl/dsl_walk.hpp"
 #include "report/exit_status.hpp"
 #include "sim/lines/dsl/dsl_slave.hpp"
@@ -72,6 +73,7 @@ class DslSession final : public Session {
   unsigned late_frames() const override { return kVertical; }
   std::string told_between(std::uint64_t frame) const override;
   RegisterMap registers() override { return master_->registers(); }
+  std::string access(const ControlRequest& request) override;
   RunSummary summary() const override;
 
  private:
@@ -196,6 +198,34 @@ std::string DslSession::judge_safe() const {
   return "";
 }
 
+// A picture shows the frames behind the message too.
+std::string DslSession::access(const ControlRequest& request) {
+  constexpr unsigned kBehind = 4;
+  const sim::Time behind = kBehind * frame_time_;
+  try {
+    DslTalk talk(simulator_);
+    switch (request.kind) {
+      case ControlRequest::Kind::kRead:
+        talk.read(request.address);
+        break;
+      case ControlRequest::Kind::kWrite:
+        talk.write(request.address, request.bytes.front());
+        break;
+      default: {
+        constexpr unsigned kName = 8;  // bytes; all else that is said of a resource has two
+        const unsigned length = request.offset == 0 ? kName : 2;
+        const auto answer = talk.ask(request.resource, false, request.offset, length);
+        simulator_.advance(behind);
+        return answer.error;
+      }
+    }
+  } catch (const DslTalkError& error) {
+    return error.what();
+  }
+  simulator_.advance(behind);
+  return "";
+}
+
 RunSummary DslSession::summary() const {
   RunSummary summary = Session::summary();
   const sim::DuplexContention both = line_.contention(simulator_.now());
@@ -297,6 +327,7 @@ const MasterSupport kDslSupport{.type = "dsl",
                                 .not_begun = kNoPosition,
                                 .trains = true,
                                 .sweep = kDslSweep,
+                                .messages = true,
                                 .walk = walk_dsl};
 
 const MasterSupport kDslModelSupport{
@@ -311,6 +342,7 @@ const MasterSupport kDslModelSupport{
     .registers = false,
     .trains = true,
     .sweep = kDslSweep,
+    .messages = true,
     .walk = walk_dsl};
 
 }  // namespace mb4::tool
