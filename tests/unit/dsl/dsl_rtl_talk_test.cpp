@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Messages of the RTL in the simulator, by its registers on AXI, under the judge of the model:
-// random transactions of both hosts with the encoder, one in four disturbed.
+// What a host sees of the RTL in the simulator, by its registers on AXI: messages of both hosts at
+// random under the judge of the model, one in four disturbed, and the checks of the safe channels,
+// each with a fault that trips it alone.
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -13,7 +14,9 @@
 #include "dsl_regs.hpp"
 #include "mb4sim/simulator.hpp"
 #include "sim/hosts/word_host.hpp"
+#include "sim/lines/dsl/dsl_faults.hpp"
 #include "sim/lines/dsl/dsl_slave.hpp"
+#include "sim/masters/dsl_model/safe_checks.hpp"
 #include "sim/scenario/scenario.hpp"
 #include "tests/unit/dsl/dsl_dialogue.hpp"
 
@@ -49,6 +52,13 @@ class RtlHost {
     EXPECT_EQ(bus_->read(address, value), std::uint8_t{0}) << address;
     return value;
   }
+  std::optional<std::uint8_t> word_write(std::uint32_t address, std::uint32_t value) {
+    return bus_->write(address, value, 0xF);
+  }
+  std::uint32_t safe_age() {
+    word(page::kAddrSafe1Lo);  // copies it
+    return word(page::kAddrSafe1Age);
+  }
   HostPort port() {
     return {.read =
                 [this](unsigned address) {
@@ -63,6 +73,10 @@ class RtlHost {
                       << address;
                 }};
   }
+  std::uint32_t frame_count() {
+    word(page::kAddrPosLo);  // copies it
+    return word(page::kAddrFrameCount);
+  }
   bool has_messages() { return page::MESSAGES_EVENTS::get(word(page::kAddrFeatures)) != 0; }
 
  private:
@@ -75,7 +89,7 @@ TEST(DslRtlTransactions, OfBothHosts_EndByRule) {
   if (!side.has_messages()) GTEST_SKIP() << "this master sends no messages";
   side.simulator().advance(3000 * sim::kPsPerUs);
   Dialogue dialogue(side.port(), side.encoder().messages(), side.encoder().registers(), 21);
-  const std::uint32_t frames_before = side.word(page::kAddrFrameCount);
+  const std::uint32_t frames_before = side.frame_count();
   const sim::Time began = side.simulator().now();
   const std::uint64_t wanted = sim::dsl_test::transactions(100);
   constexpr std::uint64_t kFramesEach = 400;
@@ -92,9 +106,68 @@ TEST(DslRtlTransactions, OfBothHosts_EndByRule) {
   EXPECT_GE(dialogue.ended, wanted);
   EXPECT_TRUE(dialogue.all_ended());
   EXPECT_GT(4 * dialogue.disturbed, wanted);
-  const std::uint32_t frames = side.word(page::kAddrFrameCount) - frames_before;
+  const std::uint32_t frames = side.frame_count() - frames_before;
   EXPECT_NEAR(frames, static_cast<double>(side.simulator().now() - began) / kFrame, 2);
   EXPECT_EQ(page::NUM_RESETS::get(side.word(page::kAddrRestarts)), 0U);
+}
+
+// Bits of SAFE_STATUS that the vertical frames from the next one on set. The fault lasts for one of
+// them.
+unsigned tripped_by(const sim::SlaveFault* fault, unsigned flipped_bit) {
+  constexpr std::uint32_t kSafeCheck = 0x14C;
+  constexpr std::uint32_t kSafeStatus = 0x150;
+  constexpr unsigned kVertical = 8;
+  constexpr std::uint32_t kBits2 = 30;
+  RtlHost side("");
+  side.simulator().advance(3000 * sim::kPsPerUs);
+  EXPECT_EQ(side.word_write(kSafeCheck, kBits2), std::uint8_t{0});
+  while (side.safe_age() != 0) side.simulator().advance(kFrame / 4);
+  unsigned tripped = 0;
+  for (unsigned i = 0; i < 6 * kVertical; ++i) {
+    if (i == 0 && fault == nullptr) {
+      side.simulator().line(1)->flip(side.encoder().flip_frames() + 3, {flipped_bit});
+    } else if (fault != nullptr && (i == 0 || i == kVertical)) {
+      side.encoder().set_fault(*fault, i == 0);
+    }
+    side.simulator().advance(kFrame);
+    tripped |= side.word(kSafeStatus);
+  }
+  return tripped;
+}
+
+constexpr unsigned bit_of(sim::dsl_model::SafeCheck check) {
+  return 1U << static_cast<unsigned>(check);
+}
+
+TEST(DslRtlSafety, EachCheck_HasAFaultThatTripsItAlone) {
+  if (!RtlHost("").has_messages()) GTEST_SKIP() << "this master has no checks";
+  namespace fault = sim::slave_fault;
+  using sim::dsl_model::SafeCheck;
+  const struct {
+    const sim::SlaveFault& fault;
+    SafeCheck check;
+  } kCases[] = {
+      {fault::kWrongCrc, SafeCheck::kCrc1},         {fault::kSafeMarker, SafeCheck::kMarked1},
+      {fault::kEarlyVsync, SafeCheck::kVsyncEarly}, {fault::kLateVsync, SafeCheck::kVsyncLate},
+      {fault::kStaleSafe, SafeCheck::kStale},       {fault::kSafe2Mismatch, SafeCheck::kMismatch},
+      {fault::kToggle2, SafeCheck::kToggle2},       {fault::kTest2, SafeCheck::kTest2},
+      {fault::kError2, SafeCheck::kError2},         {fault::kFix2, SafeCheck::kFix2},
+      {fault::kNoVsync, SafeCheck::kVsyncMissing},  {fault::kSafe2Marker, SafeCheck::kMarked2},
+      {fault::kWrongCrc2, SafeCheck::kCrc2}};
+  for (const auto& test : kCases) {
+    EXPECT_EQ(tripped_by(&test.fault, 0), bit_of(test.check)) << test.fault.name;
+  }
+  // A wrong bit makes another word, whose CRC is wrong then, or none.
+  for (const bool second : {false, true}) {
+    unsigned codes = 0;
+    for (unsigned bit = 0; bit < 10; ++bit) {
+      const unsigned tripped = tripped_by(nullptr, bit + (second ? 51U : 0U));
+      const unsigned code = bit_of(second ? SafeCheck::kCode2 : SafeCheck::kCode1);
+      EXPECT_NE(tripped, 0U);
+      codes += tripped == code ? 1 : 0;
+    }
+    EXPECT_GT(codes, 2U);
+  }
 }
 
 }  // namespace
