@@ -636,6 +636,34 @@ TEST_P(DslTransactions, OfBothHosts_EndByRule) {
 
 INSTANTIATE_TEST_SUITE_P(Seeds, DslTransactions, testing::Range<std::uint64_t>(1, 5));
 
+// A state may take 75 ms: its request goes again and again, is done once and answered once.
+TEST(DslTransactionsOfSlowStates, AreDoneOnce) {
+  HostBytes host{MessageRules{}};
+  RegisterFile registers;
+  dsl::MessageConfig config;
+  config.status_latency = 6510;  // frames of 11.52 us
+  dsl::ParameterChannel channel(config, {}, registers);
+  unsigned done = 0;
+  channel.on_done = [&done](std::span<const std::uint8_t> /*request*/) { ++done; };
+  host.link_begins();
+  host.write(address::kEventL, 0);
+  host.write(address::kControl, 0xC0);
+  unsigned frames = 0;
+  while ((host.read(address::kEventL) & mask::kFres) == 0 && frames < 10'000) {
+    Word word;
+    word.byte = static_cast<std::uint8_t>(channel.frame(host.symbol()));
+    host.frame(word, kLinked);
+    ++frames;
+  }
+  // One IDLE, six nibbles, the wait and eight nibbles; and the last request's own time after it.
+  EXPECT_GE(frames, 1U + 6 + 6510 + 8);
+  EXPECT_LE(frames, 1U + 6 + 6510 + 8 + 64 + 6);
+  EXPECT_EQ(done, 1U);
+  EXPECT_EQ(host.read(address::kData), 0x01);
+  EXPECT_EQ(host.messages().retries(), 6510 / 70);  // each 64 frames and six nibbles
+  EXPECT_EQ(host.messages().foreign(), 0);
+}
+
 // The same on a line, with random motion: no position is lost by messages, and none is wrong.
 TEST(DslTransactionsOnALine, NoPositionIsLost) {
   dsl_test::BenchSetup setup;
