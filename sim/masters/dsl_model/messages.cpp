@@ -161,7 +161,11 @@ unsigned Messages::symbol() {
     return value;
   }
   if (turn_.open && turn_.since >= kWait && !turn_.due) turn_.due = turn_.by_time = true;
-  choose();
+  if (quiet_ == 0) {
+    choose();
+  } else {
+    --quiet_;
+  }
   return kIdle;
 }
 
@@ -192,8 +196,15 @@ void Messages::nibble(unsigned value, MessageEvents& events) {
     const bool says_long = value >= 8;
     const bool goes_on = paused_ && (says_long || !turn_.open);
     receiving_ = goes_on || says_long ? Kind::kLong : Kind::kShort;
-    if (!goes_on) (receiving_ == Kind::kLong ? long_in_ : short_in_).clear();
-    if (goes_on) paused_ = false;
+    if (goes_on) {
+      paused_ = false;
+    } else if (receiving_ == Kind::kLong) {
+      long_in_.clear();
+      long_expected_ = long_.open;
+    } else {
+      short_in_.clear();
+      short_expected_ = turn_.open;
+    }
   }
   std::vector<std::uint8_t>& in = receiving_ == Kind::kLong ? long_in_ : short_in_;
   in.push_back(digit);
@@ -247,7 +258,7 @@ void Messages::whole(Kind kind, const Bytes& bytes, MessageEvents& events) {
 
 void Messages::take_short(const Bytes& bytes, MessageEvents& events) {
   const bool read = (bytes[0] & kReadBit) != 0;
-  bool fits = turn_.open;
+  bool fits = turn_.open && short_expected_;
   if (fits && rules_.check_answers) {
     const std::uint8_t control = shorts_[*turn_.host].control;
     fits = ((control & kControlRead) != 0) == read && ((control ^ bytes[0]) & kShortAddress) == 0;
@@ -273,7 +284,7 @@ void Messages::take_long(const Bytes& bytes, MessageEvents& events) {
   const std::uint8_t asked = address_[kAddressHigh];
   const bool error = (bytes[0] & kOffsetBit) != 0;
   const unsigned length = length_of(bytes[0]);
-  bool fits = long_.open;
+  bool fits = long_.open && long_expected_;
   if (fits && rules_.check_answers) {
     const bool read = (asked & kReadBit) != 0;
     const bool right_length = error || length == length_of(asked) || (!read && length == 0);
@@ -324,6 +335,8 @@ MessageEvents Messages::initialised() {
 }
 
 MessageEvents Messages::link_begins() {
+  constexpr unsigned kVertical = 8;
+  quiet_ = kVertical;
   MessageEvents events;
   events.long_free = !long_.runs;
   for (const Host host : {kMain, kSafe}) events.short_free[host] = !shorts_[host].runs;

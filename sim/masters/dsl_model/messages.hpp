@@ -7,6 +7,7 @@
 // - A start that is seen before a frame begins leaves this frame an IDLE; the first nibble goes
 // with
 //   the next one. A request is a run of nibbles.
+// - The first vertical frame of a link carries no request.
 // - One sender: a short message of the main host, then one of the safe host, then a long one, which
 //   waits until no short one is under way. A short one may go while a long answer is awaited.
 // - A short request is repeated 64 frames after its last nibble, or at once when it is refused,
@@ -140,13 +141,17 @@ class Messages {
   Kind sending_ = Kind::kNone;
   std::vector<std::uint8_t> out_;  // nibbles of the request
   std::size_t next_ = 0;
+  unsigned quiet_ = 0;  // frames of the first vertical frame that are left
   bool resetting_ = false;
   bool init_ = false;  // this frame carries INIT
 
   Kind receiving_ = Kind::kNone;
   bool ignoring_ = false;  // up to the next symbol that is no nibble
   bool paused_ = false;    // a long answer
-  unsigned pause_ = 0;     // frames of it
+  // Its request was open when it began.
+  bool short_expected_ = false;
+  bool long_expected_ = false;
+  unsigned pause_ = 0;  // frames of it
   std::vector<std::uint8_t> short_in_;
   std::vector<std::uint8_t> long_in_;
 };

@@ -33,8 +33,9 @@ bool SafeChannels::frame(unsigned place, const Word& vertical, const Word& secon
     channel.bytes[place] = word.byte;
     const bool first_error = word.error && !channel.code_error;
     channel.code_error |= word.error;
-    channel.marked |= word.special && !word.error && !word.is_k28();
-    channel.marked |= sdk_map_ && place == 1 && !word.error && word.byte == marker;
+    const bool special = word.special && !word.is_k28();
+    const bool by_value = place == 1 && word.byte == marker;
+    channel.marked |= !word.error && (sdk_map_ ? by_value : special);
     return first_error;
   };
   events.safe1_error = take(bytes1_, vertical, kMarker1);

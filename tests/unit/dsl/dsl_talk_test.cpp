@@ -80,6 +80,7 @@ class Script {
   explicit Script(const MessageRules& rules = {}) : host(rules) {
     host.reset_begins();
     host.link_begins();
+    EXPECT_EQ(frames(8), idle(8));
     clear();
   }
   void clear() {
@@ -411,6 +412,28 @@ TEST(DslTalk, ForeignAnswers_AreDropped) {
   EXPECT_EQ(script.events(), 0);
 }
 
+// An answer that began before its request was whole is none.
+TEST(DslTalk, AnswerThatBeganTooEarly_IsForeign) {
+  const Symbols ping = nibbles({0x7F, 0xAB, 0x68, 0xE3});
+  Script script;
+  script.host.write(address::kControl, 0xFF);
+  EXPECT_EQ(script.frames(5), join({idle(1), {7, 15, 8, 10}}));
+  EXPECT_EQ(script.frame(ping[0]), 4U);
+  EXPECT_EQ(script.frame(ping[1]), 4U);  // the last nibble of the request
+  script.answer(Symbols(ping.begin() + 2, ping.end()));
+  EXPECT_EQ(script.events(), 0);
+  EXPECT_EQ(script.host.messages().foreign(), 1);
+  script.answer(idle(1));
+  script.answer(ping);
+  EXPECT_EQ(script.events(), mask::kFres);
+  // One that begins with the last nibble may be right.
+  script.host.write(address::kControl, 0xFF);
+  EXPECT_EQ(script.frames(6), join({idle(1), {7, 15, 8, 10, 4}}));
+  EXPECT_EQ(script.frame(ping[0]), 4U);
+  script.answer(Symbols(ping.begin() + 1, ping.end()));
+  EXPECT_EQ(script.events(), mask::kFres);
+}
+
 // A direct and an indirect answer are not told apart.
 TEST(DslTalk, IndirectBit_IsNotCompared) {
   Script script;
@@ -550,6 +573,7 @@ TEST(DslTalk, EndOfALink_KeepsShortOnesAndEndsLongOnes) {
   script.start(0xC8, 0x01);  // before the next link
   script.host.link_begins();
   EXPECT_EQ(script.events(), mask::kAns);
+  EXPECT_EQ(script.frames(8), idle(8));  // F9
   script.expect_request({0x7F, 0x8A, 0x44});
   EXPECT_EQ(script.host.messages().retries(), 1);
   script.bytes(Bytes{0x7F, 0xAB, 0x68, 0xE3});
@@ -655,9 +679,10 @@ TEST(DslTransactionsOfSlowStates, AreDoneOnce) {
     host.frame(word, kLinked);
     ++frames;
   }
-  // One IDLE, six nibbles, the wait and eight nibbles; and the last request's own time after it.
-  EXPECT_GE(frames, 1U + 6 + 6510 + 8);
-  EXPECT_LE(frames, 1U + 6 + 6510 + 8 + 64 + 6);
+  // The first vertical frame, one IDLE, six nibbles, the wait and eight nibbles; and the last
+  // request's own time after it.
+  EXPECT_GE(frames, 8U + 1 + 6 + 6510 + 8);
+  EXPECT_LE(frames, 8U + 1 + 6 + 6510 + 8 + 64 + 6);
   EXPECT_EQ(done, 1U);
   EXPECT_EQ(host.read(address::kData), 0x01);
   EXPECT_EQ(host.messages().retries(), 6510 / 70);  // each 64 frames and six nibbles
