@@ -5,7 +5,8 @@
 # Packs the committed tree as openmb4-VERSION.tar.gz with its checksum beside it; the same commit and
 # the same Yosys give the same bytes. In its folder verilog/ is plain Verilog of each top
 # (tools/synth/plain_verilog.py), ipxact/ has IP-XACT of the bus tops (tools/synth/ipxact.py) and
-# ipxact/vivado/ those with generics for Vivado (tools/synth/vivado_ip.py). Beside it python/ holds the sdist of the Python package, which
+# ipxact/vivado/ those with generics for Vivado (tools/synth/vivado_ip.py); docs/signoff.md says what
+# the test runs have shown whose reports build/signoff.json keeps. Beside it python/ holds the sdist of the Python package, which
 # builds its library from the RTL that it carries, and the library for Arduino and PlatformIO
 # (tools/arduino.py).
 # Usage: tools/release.sh [--wheel | --all] [FOLDER]   (default build/)
@@ -54,6 +55,13 @@ add() {
     added+=("--prefix=openmb4-$version/${file%/*}/" "--add-file=$plain/$file")
   done <<<"$files"
 }
+# The sign-off page, of the reports that have been taken.
+if [ -f build/signoff.json ]; then
+  tools/signoff/signoff.py --page "$plain/signoff.md" --root .. page
+  added+=("--prefix=openmb4-$version/docs/" "--add-file=$plain/signoff.md")
+else
+  echo "release: skipped the sign-off page: no report has been taken (tools/signoff/signoff.py take)" >&2
+fi
 add verilog plain_verilog.py
 add ipxact ipxact.py
 add ipxact/vivado vivado_ip.py

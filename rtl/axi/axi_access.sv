@@ -70,7 +70,11 @@ module axi_access #(
   assign abort = clear_i || stop || (begin_q && !present) ||
                  (busy_q && happens[axi_pkg::EVENT_FAILED]);
 
-  assign access = {1'b1, write_q, address_q, 6'd0, slave_q};
+  assign access.cts       = 1'b1;
+  assign access.write     = write_q;
+  assign access.addr      = address_q;
+  assign access.byte_last = 6'd0;
+  assign access.id        = slave_q;
 
   biss_control_frame u_frame (
     .clk_i,

@@ -325,7 +325,14 @@ module axi_channel #(
     end
   end
 
-  assign event_o = {begin_frame && sl, ended_q, fail, crc_error, late_start, cds, sent};
+  assign event_o.begun     = begin_frame && sl;
+  assign event_o.ended     = ended_q;
+  assign event_o.failed    = fail;
+  assign event_o.crc_error = crc_error;
+  assign event_o.late      = late_start;
+  assign event_o.cds       = cds;
+  assign event_o.cdm       = sent;
+
   assign unused  = (^rule_i) ^ (^cdm_i);
 
   assign busy_o  = state_q != IDLE;

@@ -163,8 +163,11 @@ module axi_core #(
     .mores_i        (mores)
   );
 
-  assign enabled = enable ^ {Channels{switches_i.enable_active_low}};
-  assign bus     = {req && !write, req && write && be == 4'hF, addr, 2'b00, wdata};
+  assign enabled  = enable ^ {Channels{switches_i.enable_active_low}};
+  assign bus.rd   = req && !write;
+  assign bus.wr   = req && write && be == 4'hF;
+  assign bus.addr = {addr, 2'b00};
+  assign bus.data = wdata;
 
   axi_start #(.Wide(WIDE)) u_start (
     .clk_i,

@@ -98,6 +98,7 @@ module biss_axi #(
   end
 `endif
 
+  axi_pkg::switch_t switches;
   logic unused_miso, unused_miso_oe;
 
   axi_widths #(
@@ -106,6 +107,11 @@ module biss_axi #(
     .NeedData (STREAM_MODE == 1 ? STREAM_WIDTH : LANE * BISS_CHANNEL_WIDTH),
     .NeedUser (STREAM_MODE == 1 ? 16 : BISS_CHANNEL_WIDTH)
   ) u_widths ();
+
+  assign switches.enable_active_low   = ENABLE_ACTIVE_LOW;
+  assign switches.crc_bit_ignores     = CRC_BIT_IGNORES;
+  assign switches.align_latch         = ALIGN_LATCH;
+  assign switches.valid_until_request = VALID_UNTIL_REQUEST;
 
   axi_core #(
     .Channels     (BISS_CHANNEL_WIDTH),
@@ -120,7 +126,7 @@ module biss_axi #(
     .clk_i            (axi_aclk),
     .rst_ni           (axi_aresetn && (por_n || !POR_PIN)),
     .por_ni           (POR_PIN ? por_n : axi_aresetn),
-    .switches_i       ({ENABLE_ACTIVE_LOW, CRC_BIT_IGNORES, ALIGN_LATCH, VALID_UNTIL_REQUEST}),
+    .switches_i       (switches),
     .s_axi_awvalid    (S_AXI_AWVALID),
     .s_axi_awready    (S_AXI_AWREADY),
     .s_axi_awaddr     (S_AXI_AWADDR),

@@ -61,11 +61,17 @@ module biss_spi #(
   end
 `endif
 
+  axi_pkg::switch_t switches;
   logic        awready, wready, bvalid, arready, rvalid, tvalid, tlast, unused;
   logic [1:0]  bresp, rresp;
   logic [31:0] rdata;
   logic [LANE*BISS_CHANNEL_WIDTH-1:0] tdata;
   logic [BISS_CHANNEL_WIDTH-1:0]      tuser;
+
+  assign switches.enable_active_low   = ENABLE_ACTIVE_LOW;
+  assign switches.crc_bit_ignores     = CRC_BIT_IGNORES;
+  assign switches.align_latch         = ALIGN_LATCH;
+  assign switches.valid_until_request = VALID_UNTIL_REQUEST;
 
   axi_core #(
     .Channels     (BISS_CHANNEL_WIDTH),
@@ -77,7 +83,7 @@ module biss_spi #(
     .clk_i,
     .rst_ni,
     .por_ni           (rst_ni),
-    .switches_i       ({ENABLE_ACTIVE_LOW, CRC_BIT_IGNORES, ALIGN_LATCH, VALID_UNTIL_REQUEST}),
+    .switches_i       (switches),
     .s_axi_awvalid    (1'b0),
     .s_axi_awready    (awready),
     .s_axi_awaddr     (8'd0),

@@ -299,9 +299,15 @@ module biss_b_access (
     end
   end
 
-  assign ma_o     = {ma, ends};
-  assign end_o    = {ends && !init_q, reg_error, delay_error, index_q};
-  assign byte_o   = {wr_en, index_q, bits_q[7:0]};
+  assign ma_o.level = ma;
+  assign ma_o.ends  = ends;
+  assign end_o.ends        = ends && !init_q;
+  assign end_o.reg_error   = reg_error;
+  assign end_o.delay_error = delay_error;
+  assign end_o.good_bytes  = index_q;
+  assign byte_o.wr_en   = wr_en;
+  assign byte_o.addr    = index_q;
+  assign byte_o.wr_data = bits_q[7:0];
   assign mo_low_o = use_q & {2{init_q ? state_q == HAND_OVER : state_q != IDLE}};
   assign active_o = active_q;
   assign wait_o   = (state_q == HAND_OVER && (init_q || !mo_q)) ||

@@ -219,8 +219,10 @@ module biss_control_frame (
                   ({rdata_i, access_i.id[2:1] & {2{!cts}}} & {10{bits_byte}}) |
                   ({bits_q[8:0], (data && !write) ? cds : top} & {10{bits_shift}});
 
-  assign byte_o = {step && cts && !write && !fail && slot_q == biss_pkg::SLOT_STOP && !abort_i,
-                   index_q, bits_q[7:0]};
+  assign byte_o.wr_en   = step && cts && !write && !fail && slot_q == biss_pkg::SLOT_STOP &&
+                          !abort_i;
+  assign byte_o.addr    = index_q;
+  assign byte_o.wr_data = bits_q[7:0];
 
   always_comb begin
     active_d      = active_q;
@@ -316,7 +318,10 @@ module biss_control_frame (
   assign moved_o       = step && !(wait_o && stay);
   assign in_body_o     = carries_q &&
                          (cts ? BODY[slot_q] : tested ? TESTED[slot_q] : COMMAND[slot_q]);
-  assign end_o         = {end_q, reg_error_q, delay_error_q, index_q};
+  assign end_o.ends        = end_q;
+  assign end_o.reg_error   = reg_error_q;
+  assign end_o.delay_error = delay_error_q;
+  assign end_o.good_bytes  = index_q;
 
   `ENC_ASSERT(SlotInRange_A, clk_i, rst_ni, slot_q <= biss_pkg::SLOT_NEXT)
   `ENC_ASSERT_IF(IdleIsSlot0_A, clk_i, rst_ni, !active_q, slot_q == biss_pkg::SLOT_START)

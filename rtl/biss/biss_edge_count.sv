@@ -11,11 +11,12 @@
 //   wait_i       adds a processing clock (not in the clock of begin_i): the next edge is free
 //   rise_i       takes one edge away
 //
-// Latency: a word counts from the second clock after len_valid_i. Until then no edge is the last
-// one. A processing clock counts with the next edge; until then none_left_o and one_left_o leave it
-// out, and the caller must not look (biss_frame looks after the start bit). Between two processing
-// clocks there is an edge. mo_busy_i counts from the second clock after begin_i. All outputs except
-// two_edges_next_o are ready early in the clock, because they decide what MA does next.
+// Latency: a word counts from the second clock after len_valid_i; in between none_left_o and
+// one_left_o are 0. A processing clock counts with the next edge; until then none_left_o and
+// one_left_o leave it out, and the caller must not look (biss_frame looks after the start bit).
+// Between two processing clocks there is an edge. mo_busy_i counts from the second clock after
+// begin_i. All outputs except two_edges_next_o are ready early in the clock, because they decide
+// what MA does next.
 //
 // Misuse: ssi_i with bus_i counts one edge too many. MA may make one edge more than needed before a
 // word is told. The count keeps this edge (need_q = -2) and subtracts it from the word. The count
@@ -55,8 +56,12 @@ module biss_edge_count #(
   logic [1:0]          rises_q;
   logic signed [W-1:0] need_d;
   logic signed [W-1:0] need_q;     // edges needed minus 1; -2: one too many was sent
+  logic signed [W-1:0] sum;        // need_q after this clock
+  logic                word_d;
   logic                word_q;     // one clock after begin_i and len_valid_i: more_q is added
+  logic [7:0]          more_d;
   logic [7:0]          more_q;     // mo_busy_i, or the bits of a word minus 1
+  logic                free_d;
   logic                free_q;     // a processing clock: the next edge takes nothing away
   logic                take;
   logic                bus;
@@ -69,7 +74,13 @@ module biss_edge_count #(
   assign base = biss_c_i ? {!bus, {2{bus}}} : ssi_i ? 3'd0 : {1'b0, 1'b1, !bus};
 
   // One adder: need_q + (more_q or -1) + 1, without 1 when an edge is taken away.
-  assign {need_d, unused} = {need_q, 1'b1} + {{(W-8){!word_q}}, more_q, !take};
+  assign {sum, unused} = {need_q, 1'b1} + {{(W-8){!word_q}}, more_q, !take};
+
+  // begin_i also drops a word of a frame that was stopped.
+  assign need_d = begin_i ? signed'(W'(base)) : sum;
+  assign word_d = begin_i ? bus : len_valid_i;
+  assign more_d = begin_i ? mo_busy_i | {8{!bus}} : {!len_valid_i, len_last_i | {7{!len_valid_i}}};
+  assign free_d = !begin_i && (wait_i || (free_q && !rise_i));
 
   always_comb begin
     rises_d = rises_q;
@@ -86,10 +97,10 @@ module biss_edge_count #(
       free_q  <= 1'b0;
     end else begin
       rises_q <= rises_d;
-      need_q  <= begin_i ? signed'(W'(base)) : need_d;
-      word_q  <= begin_i ? bus : len_valid_i;   // not a word of a frame that was stopped
-      more_q  <= begin_i ? mo_busy_i | {8{!bus}} : {!len_valid_i, len_last_i | {7{!len_valid_i}}};
-      free_q  <= !begin_i && (wait_i || (free_q && !rise_i));
+      need_q  <= need_d;
+      word_q  <= word_d;
+      more_q  <= more_d;
+      free_q  <= free_d;
     end
   end
 

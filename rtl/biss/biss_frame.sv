@@ -328,8 +328,14 @@ module biss_frame #(
   assign final_rise_o = rise && (started_q || bus) && one_left && cdm_known;
   assign ma_clocks_o  = ma_clocks || init_q;
   assign biss_c_o    = biss_c;
-  assign status_o    = {idle_q, state_q == TIMEOUT, cds_q, cdm, sl_i};
-  assign event_o     = {line_end, init_done, init_fail};
+  assign status_o.idle    = idle_q;
+  assign status_o.timeout = state_q == TIMEOUT;
+  assign status_o.cds     = cds_q;
+  assign status_o.cdm     = cdm;
+  assign status_o.sl      = sl_i;
+  assign event_o.line_end  = line_end;
+  assign event_o.init_done = init_done;
+  assign event_o.init_fail = init_fail;
 
   `ENC_ASSERT_IF(IdleDoesNotClock_A, clk_i, rst_ni, state_q == IDLE, !ma_clocks)
 

@@ -136,7 +136,10 @@ module biss_line #(
     .rx_o        (rx)
   );
 
-  assign data_o = {rx, status_o.cds, event_o.init_done, quarters};
+  assign data_o.rx       = rx;
+  assign data_o.cds      = status_o.cds;
+  assign data_o.delay_en = event_o.init_done;
+  assign data_o.delay    = quarters;
 
   if (Mo) begin : gen_mo
     biss_mo_tx #(.DataBits(DataBits), .FreeCrc(FreeCrc)) u_mo (

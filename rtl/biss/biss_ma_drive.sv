@@ -12,8 +12,8 @@
 //               force bits do; it has no meaning with stop_i, which comes late
 //   force_i     from the first tick after the next clock on MA has the level force_level_i,
 //               whatever the frame does
-//   released_o  high for one clock: the line must rest until the next tick, because the force has
-//               ended or has made MA fall
+//   released_o  high for one clock, when the force has ended or has made MA fall. MA may change
+//               with the next tick; until then no frame may begin on the line
 //
 // Misuse: enough_i must not fall before the next begin_i.
 // Reset: only por_ni resets the flop of MA, so a reset does not cut a low pulse short.

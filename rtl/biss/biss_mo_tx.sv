@@ -212,7 +212,9 @@ module biss_mo_tx #(
     end
   end
 
-  assign read_o = {state_q != IDLE, offer_i.slave, byte_now};
+  assign read_o.rd_en = state_q != IDLE;
+  assign read_o.slave = offer_i.slave;
+  assign read_o.place = byte_now;
   assign mo_o   = mo_q;
 
 endmodule

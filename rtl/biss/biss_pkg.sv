@@ -47,7 +47,7 @@ package biss_pkg;
 
   // Configuration and requests that last. They come from registers.
   typedef struct packed {
-    protocol_e   protocol;
+    logic [1:0]  protocol;   // protocol_e
     logic        mo_en;      // MO takes part in frames
     logic [7:0]  mo_busy;    // processing clocks that MO shows
     logic        hold_cdm;   // MA keeps the inverted CDM up to the next frame

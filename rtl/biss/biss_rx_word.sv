@@ -159,9 +159,13 @@ module biss_rx_word #(
   end
 
   // A word that cannot be decoded is bad with any CRC, or without one.
-  assign rx_o = {offer_i.slave, wr_en && sensor_q, wr_byte, part_q, value,
-                 bit_valid_i && fresh_q && sensor_q,
-                 run_i && !load_i && (bit_valid_i || !fresh_q) && !next_o && sensor_q,
-                 next_o && sensor_q, ok && (Gray || !word.gray)};
+  assign rx_o.slave   = offer_i.slave;
+  assign rx_o.wr_en   = wr_en && sensor_q;
+  assign rx_o.wr_byte = wr_byte;
+  assign rx_o.wr_data = {part_q, value};
+  assign rx_o.first   = bit_valid_i && fresh_q && sensor_q;
+  assign rx_o.open    = run_i && !load_i && (bit_valid_i || !fresh_q) && !next_o && sensor_q;
+  assign rx_o.done    = next_o && sensor_q;
+  assign rx_o.ok      = ok && (Gray || !word.gray);
 
 endmodule

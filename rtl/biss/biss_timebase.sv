@@ -72,8 +72,8 @@ module biss_timebase #(
                        : step_d == last && (!tens || clock_d == END);
   end
 
-  // The middle is the end of the first half of the clocks. Of an odd number of short steps (last is
-  // even) the half is rounded down, and b_neg tells of the half clock that is left.
+  // The middle is the end of the first half of the clocks. With an odd number of short steps (last
+  // is even) it lies half a clock later than the last whole clock of this half: b_neg tells so.
   assign middle = run_i && (tens || last[0] ? step_q : step_d) == last >> 1 &&
                   (!tens || clock_q == (last[0] ? END : MIDDLE));
 
@@ -102,7 +102,9 @@ module biss_timebase #(
 
   assign tick_o        = tick;
   assign half_next_o   = !half_q;
-  assign sample_o      = {a_q[1], b_q[1], !last[0] && !tens};
+  assign sample_o.a     = a_q[1];
+  assign sample_o.b     = b_q[1];
+  assign sample_o.b_neg = !last[0] && !tens;
   assign sample_half_o = h_q[1];
 
   `ENC_ASSERT_IF(CountInRange_A, clk_i, rst_ni, run_i, step_q <= last && clock_q <= END)

@@ -57,12 +57,12 @@ module enc_axil #(
   input  logic             word_error_i
 );
 
-  logic        busy_q;      // an access runs, of the kind write_q
-  logic        write_q;     // the access that runs is a write
-  logic        awready_q;   // also WREADY
-  logic        arready_q;
-  logic        bvalid_q;
-  logic        rvalid_q;
+  logic        busy_d, busy_q;        // an access runs, of the kind write_q
+  logic        write_d, write_q;      // the access that runs is a write
+  logic        awready_d, awready_q;  // also WREADY
+  logic        arready_d, arready_q;
+  logic        bvalid_d, bvalid_q;
+  logic        rvalid_d, rvalid_q;
   logic        error_q;
   logic [31:0] data_q;
   logic        write, read;
@@ -80,6 +80,13 @@ module enc_axil #(
   assign word_be_o    = s_axi_wstrb | {4{!write_q}};
   assign done         = word_req_o && word_ready_i;
 
+  assign write_d   = rest ? write && !(read && write_q) : write_q;
+  assign busy_d    = rest ? write || read : word_req_o && !word_ready_i;
+  assign awready_d = done && write_q;
+  assign arready_d = done && !write_q;
+  assign bvalid_d  = (awready_q && write) || (bvalid_q && !s_axi_bready);
+  assign rvalid_d  = (arready_q && read) || (rvalid_q && !s_axi_rready);
+
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       busy_q    <= 1'b0;
@@ -91,12 +98,12 @@ module enc_axil #(
       error_q   <= 1'b0;
       data_q    <= '0;
     end else begin
-      if (rest) write_q <= write && !(read && write_q);
-      busy_q    <= rest ? write || read : word_req_o && !word_ready_i;
-      awready_q <= done && write_q;
-      arready_q <= done && !write_q;
-      bvalid_q  <= (awready_q && write) || (bvalid_q && !s_axi_bready);
-      rvalid_q  <= (arready_q && read) || (rvalid_q && !s_axi_rready);
+      busy_q    <= busy_d;
+      write_q   <= write_d;
+      awready_q <= awready_d;
+      arready_q <= arready_d;
+      bvalid_q  <= bvalid_d;
+      rvalid_q  <= rvalid_d;
       if (done) begin
         error_q <= word_error_i;
         data_q  <= word_data_i;

@@ -34,6 +34,7 @@ module enc_irq (
 );
 
   // core
+  logic [4:0] wait_d;
   logic [4:0] wait_q;     // events that have not been sent
   logic [4:0] held_q;     // events on their way
   logic       req_q;
@@ -41,6 +42,7 @@ module enc_irq (
   logic       send;
   logic [4:0] left;       // events that go on waiting
   // bus
+  logic [4:0] status_d;
   logic [4:0] status_q;
   logic [4:0] enable_q;
   logic       ack_q;
@@ -55,8 +57,10 @@ module enc_irq (
     .data_o (ack)
   );
 
-  assign send = req_q == ack && wait_q != 5'd0;
-  assign left = wait_q & {5{!send}};
+  assign send   = req_q == ack && wait_q != 5'd0;
+  assign left   = wait_q & {5{!send}};
+  // A second frame that ends while the first one still waits is lost (bit 4).
+  assign wait_d = left | event_i | {left[0] && event_i[0], 4'd0};
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -64,7 +68,7 @@ module enc_irq (
       held_q <= '0;
       req_q  <= 1'b0;
     end else begin
-      wait_q <= left | event_i | {left[0] && event_i[0], 4'd0};
+      wait_q <= wait_d;
       if (send) held_q <= wait_q;
       req_q  <= req_q ^ send;
     end
@@ -80,13 +84,15 @@ module enc_irq (
   assign set  = held_q & {5{req != ack_q}};
   assign kept = status_q & ~(data_i & {5{status_we_i}});
 
+  assign status_d = kept | set | {kept[0] && set[0], 4'd0};
+
   always_ff @(posedge bus_clk_i or negedge bus_rst_ni) begin
     if (!bus_rst_ni) begin
       status_q <= '0;
       enable_q <= '0;
       ack_q    <= 1'b0;
     end else begin
-      status_q <= kept | set | {kept[0] && set[0], 4'd0};
+      status_q <= status_d;
       if (enable_we_i) enable_q <= data_i;
       ack_q    <= req;
     end

@@ -39,21 +39,29 @@ module enc_posted #(
   output logic             busy_o
 );
 
-  logic [AddrW:0] wr_q;
   logic [AddrW:0] wr_d;
+  logic [AddrW:0] wr_q;
   logic [AddrW:0] wr_gray_q;
   logic [AddrW:0] wr_sync;
+  logic [AddrW:0] rd_d;
   logic [AddrW:0] rd_q;
   logic [AddrW:0] rd_gray;
+  logic           valid_d;
   logic           valid_q;
+  logic           busy_d;
   logic           busy_q;
+  logic [AddrW:0] taken_d;
   logic [AddrW:0] taken_q;    // Gray count of the bytes taken
+  logic [AddrW:0] target_d;
   logic [AddrW:0] target_q;   // Gray count of the bytes written before the mark
   logic           mark;
   logic           mark_q;
+  logic           seek_d;
   logic           seek_q;     // target_q is valid, the mark has not been reached yet
+  logic           marked_d;
   logic           marked_q;
   logic           fetch;
+  logic           free;       // no byte is offered, or the core takes it
 
   assign wr_d = wr_q + (AddrW+1)'(1);
 
@@ -84,7 +92,8 @@ module enc_posted #(
   );
 
   assign rd_gray = rd_q ^ {1'b0, rd_q[AddrW:1]};
-  assign fetch   = wr_sync != rd_gray && (!valid_q || ready_i);
+  assign free    = !valid_q || ready_i;
+  assign fetch   = wr_sync != rd_gray && free;
 
   enc_ram #(.Width(Width), .AddrW(AddrW)) u_ram (
     .wr_clk_i,
@@ -97,6 +106,15 @@ module enc_posted #(
     .rd_data_o (data_o)
   );
 
+  assign rd_d     = rd_q + (AddrW+1)'(fetch);
+  assign valid_d  = fetch || !free;
+  assign busy_d   = valid_q || wr_sync != rd_gray;
+  assign taken_d  = free ? rd_gray : taken_q;
+  // mark_q comes one clock after the mark: the count has crossed by then as well.
+  assign seek_d   = seek_q ? taken_q != target_q : mark_q != marked_q;
+  assign target_d = (!seek_q && mark_q != marked_q) ? wr_sync : target_q;
+  assign marked_d = (seek_q && taken_q == target_q) ? mark_q : marked_q;
+
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       rd_q     <= '0;
@@ -108,19 +126,14 @@ module enc_posted #(
       seek_q   <= 1'b0;
       marked_q <= 1'b0;
     end else begin
-      if (fetch) rd_q <= rd_q + (AddrW+1)'(1);
-      valid_q <= fetch || (valid_q && !ready_i);
-      busy_q  <= valid_q || wr_sync != rd_gray;
-      if (!valid_q || ready_i) taken_q <= rd_gray;
-      // One clock after the mark: the count has crossed by then as well.
-      mark_q  <= mark;
-      if (seek_q) begin
-        seek_q <= taken_q != target_q;
-        if (taken_q == target_q) marked_q <= mark_q;
-      end else if (mark_q != marked_q) begin
-        seek_q   <= 1'b1;
-        target_q <= wr_sync;
-      end
+      rd_q     <= rd_d;
+      valid_q  <= valid_d;
+      busy_q   <= busy_d;
+      taken_q  <= taken_d;
+      target_q <= target_d;
+      mark_q   <= mark;
+      seek_q   <= seek_d;
+      marked_q <= marked_d;
     end
   end
 

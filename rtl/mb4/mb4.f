@@ -19,6 +19,7 @@ regs/mb4_crc_code.sv
 regs/mb4_crc_decode.sv
 regs/mb4_slave_cfg.sv
 regs/mb4_instr_reg.sv
+regs/mb4_kept.sv
 regs/mb4_recent.sv
 regs/mb4_host_read.sv
 regs/mb4_read_port2.sv

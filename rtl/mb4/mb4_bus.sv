@@ -14,7 +14,7 @@
 module mb4_bus #(
   parameter logic [1:0]  SlCells   = biss_pkg::SL_FLOPS,
   parameter int unsigned WaitLimit = 1024,
-  parameter logic [31:0] Features = mb4_page_regs_pkg::FEATURES_FULL
+  parameter logic [31:0] Features = mb4_pkg::FEATURES_FULL
 ) (
   // bus
   input  logic        bus_clk_i,
@@ -90,7 +90,7 @@ module mb4_bus #(
     .word_error_o,
     .host_o        (host),
     .rd_data_i     (rd_data),
-    .empty_i       (tap.empty),
+    .empty_i       (tap.regs.empty),
     .page_o        (page),
     .ack_i         (page_ack),
     .beat_i        (beat),

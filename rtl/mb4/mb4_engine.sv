@@ -29,17 +29,17 @@ module mb4_engine #(
   parameter bit Tap   = 1'b0,    // for bus tops: tap_o, and 0xF4 acts later (decision 45)
   parameter logic [1:0] SlCells = biss_pkg::SL_FLOPS, // SL: flops or DDR cells (biss_sl_capture)
   // Features (docs/integration.md, "Features"): a preset, and what differs from it
-  parameter logic [31:0] Features = mb4_page_regs_pkg::FEATURES_FULL,
-  parameter int unsigned Lines   = Features[mb4_page_regs_pkg::TWO_LINES_LSB] ? 2 : 1,
-  parameter int unsigned Slaves  = 32'(Features[mb4_page_regs_pkg::SLAVES_LSB +: 4]),
-  parameter bit          BissB   = Features[mb4_page_regs_pkg::BISS_B_LSB],
-  parameter bit          Ssi     = Features[mb4_page_regs_pkg::SSI_LSB],
-  parameter bit          Mo      = Features[mb4_page_regs_pkg::MO_LSB],
-  parameter bit          Control = Features[mb4_page_regs_pkg::CONTROL_LSB],
-  parameter bit          Gray    = Features[mb4_page_regs_pkg::GRAY_LSB],
-  parameter bit          Force   = Features[mb4_page_regs_pkg::FORCE_LSB],
-  parameter bit          FreeCrc = Features[mb4_page_regs_pkg::FREE_CRC_LSB],
-  parameter int unsigned Banks   = Features[mb4_page_regs_pkg::TWO_BANKS_LSB] ? 2 : 1
+  parameter logic [31:0] Features = mb4_pkg::FEATURES_FULL,
+  parameter int unsigned Lines   = Features[mb4_pkg::TWO_LINES_LSB] ? 2 : 1,
+  parameter int unsigned Slaves  = 32'(Features[mb4_pkg::SLAVES_LSB +: 4]),
+  parameter bit          BissB   = Features[mb4_pkg::BISS_B_LSB],
+  parameter bit          Ssi     = Features[mb4_pkg::SSI_LSB],
+  parameter bit          Mo      = Features[mb4_pkg::MO_LSB],
+  parameter bit          Control = Features[mb4_pkg::CONTROL_LSB],
+  parameter bit          Gray    = Features[mb4_pkg::GRAY_LSB],
+  parameter bit          Force   = Features[mb4_pkg::FORCE_LSB],
+  parameter bit          FreeCrc = Features[mb4_pkg::FREE_CRC_LSB],
+  parameter int unsigned Banks   = Features[mb4_pkg::TWO_BANKS_LSB] ? 2 : 1
 ) (
   input  logic       clk_i,
   input  logic       rst_ni,
@@ -82,12 +82,8 @@ module mb4_engine #(
       mb4_pkg::features(Lines, Slaves, Banks, Force, Gray, BissB, Ssi, Mo, Control, FreeCrc);
 
 `ifndef __ICARUS__  // Icarus 11 knows no $error here
-  if (FEATURES[mb4_page_regs_pkg::SLAVES_LSB +: 4] == 4'd0) begin : gen_range
+  if (FEATURES[mb4_pkg::SLAVES_LSB +: 4] == 4'd0) begin : gen_range
     $error("Lines is 1 or 2, Banks 1 or 2, Slaves 1 to 8, with two lines 1 to 4 or 8");
-  end
-  if (mb4_pkg::features(2, 8, 2, 1'b1, 1'b1, 1'b1, 1'b1, 1'b1, 1'b1, 1'b1) !=
-      mb4_page_regs_pkg::RESET_FEATURES) begin : gen_bits
-    $error("mb4_pkg::features has not the bits of FEATURES in mb4_page.rdl");
   end
 `endif
 
@@ -100,6 +96,8 @@ module mb4_engine #(
   logic [11:0]      cfg_slave;
   logic [4*mb4_pkg::SLAVE_CFG_W-1:0] slave_cfg;
   mb4_pkg::cfg_t    cfg;
+  mb4_pkg::host_t       host;
+  mb4_pkg::mem_rd_t     rd2;
   mb4_pkg::instr_host_t instr, instr_seen;
   mb4_pkg::instr_core_t instr_state;
   mb4_pkg::flags_t  flags;
@@ -131,7 +129,8 @@ module mb4_engine #(
   // bus tops
   mb4_pkg::reg_tap_t      reg_tap;
   biss_pkg::line_data_t   data1, data2;
-  logic                   frame_lost, frame_starts;
+  biss_pkg::line_start_t  start1, start2;
+  logic                   frame_lost, frame_starts, unused;
 
   // quirks_i is static. The flops keep it out of the combinational logic behind the pins. This
   // shortens paths and makes the simulation faster.
@@ -151,16 +150,25 @@ module mb4_engine #(
 
   // ---- registers ----------------------------------------------------------------------------
 
+  assign host.wr_en   = wr_en_i;
+  assign host.wr_addr = wr_addr_i;
+  assign host.wr_data = wr_data_i;
+  assign host.rd_en   = rd_en_i;
+  assign host.rd_addr = rd_addr_i;
+  // SCDATA5..8: the lowest address has bit 5 set.
+  assign rd2.en       = rd2_en_i;
+  assign rd2.addr     = {1'b1, rd2_addr_i};
+
   mb4_reg_file #(.Port2(Port2), .Tap(Tap), .Features(FEATURES)) u_regs (
     .clk_i,
     .rst_ni,
     .rst_core_ni    (rst_core_n),
     .wr_clk_i,
     .rd_clk_i,
-    .host_i         ({wr_en_i, wr_addr_i, wr_data_i, rd_en_i, rd_addr_i}),
+    .host_i         (host),
     .rd_data_o,
     .rd2_clk_i,
-    .rd2_i          ({rd2_en_i, 1'b1, rd2_addr_i}),
+    .rd2_i          (rd2),
     .rd2_data_o,
     .enscd_o        (enscd),
     .cfg_en_i       (cfg_en),
@@ -192,7 +200,8 @@ module mb4_engine #(
       if (!rst_core_n) late_q <= '0;
       else             late_q <= {late_q[3:0], instr.count};
     end
-    assign instr_seen = {late_q[5:4], instr.written};
+    assign instr_seen.count   = late_q[5:4];
+    assign instr_seen.written = instr.written;
   end else begin : gen_not_late
     assign instr_seen = instr;
   end
@@ -260,21 +269,37 @@ module mb4_engine #(
 
   assign eot_o  = flags.eot;
   // With the DDR cell of an iCE40 no other logic can read the pin.
-  assign {status2, status1} = line_status;
+  assign status1 = line_status[0 +: biss_pkg::LINE_STATUS_W];
+  assign status2 = line_status[biss_pkg::LINE_STATUS_W +: biss_pkg::LINE_STATUS_W];
   assign sl_pin = (SlCells == biss_pkg::SL_ICE40 ? {status2.sl, status1.sl} : {sl2_i, sl1_i}) |
                   {Lines == 1, 1'b0};
-  assign status = {flags, ner_i && !ner_low_o, sl_pin};
-  assign {data2, data1} = line_data;
+  assign status.flags = flags;
+  assign status.n_err = ner_i && !ner_low_o;
+  assign status.sl2   = sl_pin[1];
+  assign status.sl1   = sl_pin[0];
+  assign data1 = line_data[0 +: biss_pkg::LINE_DATA_W];
+  assign data2 = line_data[biss_pkg::LINE_DATA_W +: biss_pkg::LINE_DATA_W];
   assign frame_starts   = go.start && !go.init && !go.register_access;
-  // takes_part is the highest bit of biss_pkg::line_start_t.
-  assign tap_o = {reg_tap, !mem.clears, cfg.slaveloc5,
-                  Ssi && cfg.cfgch2 == biss_pkg::SSI, Ssi && cfg.cfgch1 == biss_pkg::SSI,
-                  frame_starts && line_start[2*biss_pkg::LINE_START_W-1],
-                  frame_starts && line_start[biss_pkg::LINE_START_W-1], go.stop,
-                  ma2_o, ma1_o, data2.rx.wr_en, data1.rx.wr_en, data2.rx.done, data1.rx.done,
-                  data2.rx.slave, data1.rx.slave, bank.frame_end, frame_lost,
-                  flags.n_agserr, flags.n_delayerr, flags.n_scderr, flags.n_regerr, flags.regend,
-                  flags.swbank_fail};
+  assign start1 = line_start[0 +: biss_pkg::LINE_START_W];
+  assign start2 = line_start[biss_pkg::LINE_START_W +: biss_pkg::LINE_START_W];
+  // The tap shows only which lines take part in a frame.
+  assign unused = ^{start1, start2};
+
+  assign tap_o.regs        = reg_tap;
+  assign tap_o.ready       = !mem.clears;
+  assign tap_o.slaveloc5   = cfg.slaveloc5;
+  assign tap_o.ssi         = {2{Ssi}} & {cfg.cfgch2 == biss_pkg::SSI, cfg.cfgch1 == biss_pkg::SSI};
+  assign tap_o.start       = {frame_starts && start2.takes_part, frame_starts && start1.takes_part};
+  assign tap_o.stop        = go.stop;
+  assign tap_o.ma          = {ma2_o, ma1_o};
+  assign tap_o.wr          = {data2.rx.wr_en, data1.rx.wr_en};
+  assign tap_o.done        = {data2.rx.done, data1.rx.done};
+  assign tap_o.slave       = {data2.rx.slave, data1.rx.slave};
+  assign tap_o.frame_end   = bank.frame_end;
+  assign tap_o.lost        = frame_lost;
+  assign tap_o.good        = {flags.n_agserr, flags.n_delayerr, flags.n_scderr, flags.n_regerr};
+  assign tap_o.regend      = flags.regend;
+  assign tap_o.swbank_fail = flags.swbank_fail;
 
   assign clkeni_o = cfg.clkeni;
   assign paired_o = cfg.cfgif[1];

@@ -17,7 +17,7 @@
 
 module mb4_lines #(
   parameter logic [1:0] SlCells = biss_pkg::SL_FLOPS,
-  parameter logic [31:0] Features = mb4_page_regs_pkg::FEATURES_FULL
+  parameter logic [31:0] Features = mb4_pkg::FEATURES_FULL
 ) (
   input  logic        clk_i,
   input  logic        rst_ni,
@@ -57,10 +57,10 @@ module mb4_lines #(
   localparam int unsigned DATA_W   = biss_pkg::LINE_DATA_W;
   localparam int unsigned READ_W   = biss_pkg::MO_READ_W;
 
-  localparam bit TWO_LINES = Features[mb4_page_regs_pkg::TWO_LINES_LSB];
-  localparam bit SSI       = Features[mb4_page_regs_pkg::SSI_LSB];
-  localparam bit MO        = Features[mb4_page_regs_pkg::MO_LSB];
-  localparam logic [3:0] SLAVES = Features[mb4_page_regs_pkg::SLAVES_LSB +: 4];
+  localparam bit TWO_LINES = Features[mb4_pkg::TWO_LINES_LSB];
+  localparam bit SSI       = Features[mb4_pkg::SSI_LSB];
+  localparam bit MO        = Features[mb4_pkg::MO_LSB];
+  localparam logic [3:0] SLAVES = Features[mb4_pkg::SLAVES_LSB +: 4];
   localparam logic [7:0] PRESENT = mb4_pkg::channels(TWO_LINES, SLAVES);
 
   // Data channels that line 2 has, and those that line 1 can have.
@@ -75,7 +75,8 @@ module mb4_lines #(
   localparam int unsigned LISTS    = ONE_LIST ? 2 : 4;
   localparam int unsigned SUM      = ONE_LIST ? 0 : 2;  // list of line 1 that counts the bits
 
-  biss_pkg::line_status_t status1, status2;
+  biss_pkg::line_status_t status1, status2, no_line_status;
+  biss_pkg::line_event_t  no_line_event;
   biss_pkg::sample_t sample;
   logic        half_next, sample_half, idle;
   logic [1:0]  ssi;
@@ -86,8 +87,19 @@ module mb4_lines #(
   logic [4*OFFER_W-1:0] offer;
   logic        unused;
 
-  assign {status2, status1} = status_o;
+  assign status1 = status_o[0 +: STATUS_W];
+  assign status2 = status_o[STATUS_W +: STATUS_W];
   assign idle = status1.idle && status2.idle;
+
+  // What a line that is left out tells: it is idle, SL is 1, and its part of a frame has ended.
+  assign no_line_status.idle     = 1'b1;
+  assign no_line_status.timeout  = 1'b0;
+  assign no_line_status.cds      = 1'b0;
+  assign no_line_status.cdm      = 1'b0;
+  assign no_line_status.sl       = 1'b1;
+  assign no_line_event.line_end  = 1'b1;
+  assign no_line_event.init_done = 1'b0;
+  assign no_line_event.init_fail = 1'b0;
 
   // The time base also runs between frames, for forced levels, which last whole half periods, and
   // for time limits. It restarts when they begin. Only por_ni resets it, so that after a reset a
@@ -147,11 +159,11 @@ module mb4_lines #(
   for (genvar i = 0; i < LINES; i++) begin : gen_line
     biss_line #(
       .SlCells(SlCells),
-      .BissB(Features[mb4_page_regs_pkg::BISS_B_LSB]),
+      .BissB(Features[mb4_pkg::BISS_B_LSB]),
       .Ssi(SSI),
       .Mo(MO),
-      .FreeCrc(Features[mb4_page_regs_pkg::FREE_CRC_LSB]),
-      .Gray(Features[mb4_page_regs_pkg::GRAY_LSB]),
+      .FreeCrc(Features[mb4_pkg::FREE_CRC_LSB]),
+      .Gray(Features[mb4_pkg::GRAY_LSB]),
       .Slaves(NUM_SLAVES)
     ) u_line (
       .clk_i,
@@ -185,8 +197,8 @@ module mb4_lines #(
   end
 
   if (!TWO_LINES) begin : gen_one_line
-    assign status_o[STATUS_W +: STATUS_W] = 5'b10001;   // it is idle, and SL is 1
-    assign event_o[EVENT_W +: EVENT_W]    = 3'b100;     // its part of a frame has always ended
+    assign status_o[STATUS_W +: STATUS_W] = no_line_status;
+    assign event_o[EVENT_W +: EVENT_W]    = no_line_event;
     assign data_o[DATA_W +: DATA_W]       = '0;
     assign mo_read_o[READ_W +: READ_W]    = '0;
     assign {ssi[1], next[3], next[1]}     = 3'b000;
@@ -196,6 +208,6 @@ module mb4_lines #(
 
   // Only one list of each line counts bits. A line that is left out uses none of the rest.
   assign unused = ^{actuator, bus_q, len_valid, len_last, next, ssi, offer, cmd_i, start_i,
-                    slave_cfg_i, mo_data_i, sl_i};
+                    slave_cfg_i, mo_data_i, sl_i, no_line_status, no_line_event};
 
 endmodule

@@ -88,6 +88,14 @@ package mb4_pkg;
     logic [5:0] addr;
   } mem_rd_t;
 
+  // A byte that the host has written, on its way to the core's memories.
+  typedef struct packed {
+    logic       elsewhere;   // 0: SCDATA, 1: RDATA or SVALID
+    logic       select;      // SCDATA: the bank; else 1: SVALID
+    logic [5:0] addr;        // of SVALID bit 5 is the bank
+    logic [7:0] data;
+  } posted_t;
+
   // What a line brings for SVALID: a word of a data channel (of four) begins, is complete, or is
   // split by SWBANK.
   typedef struct packed {
@@ -223,12 +231,7 @@ package mb4_pkg;
 
   // What a bus top looks at in the engine. Core domain; vectors are of lines {2, 1}.
   typedef struct packed {
-    logic        empty;      // the core has taken all posted bytes; changes with either clock
-    banks_t      banks;
-    logic [15:0] svalid;
-    logic [3:0]  cds;
-    logic [15:0] hi;
-    logic [15:0] lo;
+    reg_tap_t    regs;
     logic        ready;      // the memories are cleared
     logic        slaveloc5;
     logic [1:0]  ssi;        // the line has SSI
@@ -252,16 +255,42 @@ package mb4_pkg;
     logic [2:0]  channel;
   } page_req_t;
 
-  // Features of a core (decision 44). They travel as one number: the word FEATURES of the page of a
-  // bus top, bit by bit. SLAVES is 0 if a number is out of its range; mb4_engine then stops.
+  // Features of a core (decision 44). They travel as one number, the parameter Features, whose bits
+  // are these. The word FEATURES of a bus top's page shows it (mb4_page), and so does a byte of
+  // smaller cores.
+  localparam int unsigned FREE_CRC_LSB       = 0;   // any CRC polynomial and start value
+  localparam int unsigned SLAVES_ON_LINE_LSB = 1;   // a line has more than one data channel
+  localparam int unsigned CONTROL_LSB        = 2;   // control communication
+  localparam int unsigned MO_LSB             = 3;   // actuators and the delay of MO
+  localparam int unsigned SSI_LSB            = 4;   // SSI
+  localparam int unsigned BISS_B_LSB         = 5;   // BiSS B
+  localparam int unsigned TWO_LINES_LSB      = 6;   // line 2
+  localparam int unsigned GRAY_LSB           = 7;   // Gray code
+  localparam int unsigned FORCE_LSB          = 8;   // levels of MA and MO by hand
+  localparam int unsigned TWO_BANKS_LSB      = 9;   // two banks of data
+  localparam int unsigned SLAVES_LSB         = 12;  // data channels, 4 bits
+  localparam logic [31:0] FEATURES_FULL = 32'h000083FF;
+  localparam logic [7:0]  ADDR_FEATURES = 8'h7F;  // of FEATURES(6:0), in cores that are not full
+
+  // SLAVES is 0 if a number is out of its range; mb4_engine then stops.
   function automatic logic [31:0] features(
       input logic [31:0] lines, input logic [31:0] slaves, input logic [31:0] banks,
       input logic force_bits, input logic gray, input logic biss_b, input logic ssi,
       input logic mo, input logic control, input logic free_crc);
-    features = {16'd0, slaves[3:0], 2'b00, banks == 32'd2, force_bits, gray, lines == 32'd2,
-                biss_b, ssi, mo, control, slaves != 32'd1, free_crc};
+    features = 32'd0;
+    features[FREE_CRC_LSB]       = free_crc;
+    features[SLAVES_ON_LINE_LSB] = slaves != 32'd1;
+    features[CONTROL_LSB]        = control;
+    features[MO_LSB]             = mo;
+    features[SSI_LSB]            = ssi;
+    features[BISS_B_LSB]         = biss_b;
+    features[TWO_LINES_LSB]      = lines == 32'd2;
+    features[GRAY_LSB]           = gray;
+    features[FORCE_LSB]          = force_bits;
+    features[TWO_BANKS_LSB]      = banks == 32'd2;
+    features[SLAVES_LSB +: 4]    = slaves[3:0];
     if (lines < 32'd1 || lines > 32'd2 || banks < 32'd1 || banks > 32'd2 || slaves > 32'd8 ||
-        (lines == 32'd2 && slaves > 32'd4 && slaves != 32'd8)) features[15:12] = 4'd0;
+        (lines == 32'd2 && slaves > 32'd4 && slaves != 32'd8)) features[SLAVES_LSB +: 4] = 4'd0;
   endfunction
 
   // Data channels of a core; those of one line if the other one has data channels 5..8.
@@ -282,7 +311,7 @@ package mb4_pkg;
   localparam int unsigned QUIRK_AGSERR_ON_INSTR_WR   = 1;
   localparam int unsigned QUIRK_AGSERR_ON_HOLDBANK   = 2;
   localparam int unsigned QUIRK_AGS_CLEARED_ON_ERROR = 3;
-  localparam int unsigned QUIRK_REVISION_LSB         = 4;  // 2 bits: 0 = Y, 1 = Z, 2 = Z1
+  localparam int unsigned QUIRK_REVISION_LSB = 4;   // 2 bits: 0 = Y, 1 = Z, 2 = Z1
   localparam logic [5:0]  QUIRKS_DEFAULT             = 6'b000000;
 
 endpackage

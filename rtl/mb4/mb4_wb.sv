@@ -20,17 +20,17 @@ module mb4_wb #(
   parameter logic [1:0]  SlCells   = biss_pkg::SL_FLOPS,  // SL: flops or DDR cells
   parameter int unsigned WaitLimit = 1024,
   // Features (docs/integration.md, "Features"): a preset, and what differs from it
-  parameter logic [31:0] Features = mb4_page_regs_pkg::FEATURES_FULL,
-  parameter int unsigned Lines   = Features[mb4_page_regs_pkg::TWO_LINES_LSB] ? 2 : 1,
-  parameter int unsigned Slaves  = 32'(Features[mb4_page_regs_pkg::SLAVES_LSB +: 4]),
-  parameter bit          BissB   = Features[mb4_page_regs_pkg::BISS_B_LSB],
-  parameter bit          Ssi     = Features[mb4_page_regs_pkg::SSI_LSB],
-  parameter bit          Mo      = Features[mb4_page_regs_pkg::MO_LSB],
-  parameter bit          Control = Features[mb4_page_regs_pkg::CONTROL_LSB],
-  parameter bit          Gray    = Features[mb4_page_regs_pkg::GRAY_LSB],
-  parameter bit          Force   = Features[mb4_page_regs_pkg::FORCE_LSB],
-  parameter bit          FreeCrc = Features[mb4_page_regs_pkg::FREE_CRC_LSB],
-  parameter int unsigned Banks   = Features[mb4_page_regs_pkg::TWO_BANKS_LSB] ? 2 : 1
+  parameter logic [31:0] Features = mb4_pkg::FEATURES_FULL,
+  parameter int unsigned Lines   = Features[mb4_pkg::TWO_LINES_LSB] ? 2 : 1,
+  parameter int unsigned Slaves  = 32'(Features[mb4_pkg::SLAVES_LSB +: 4]),
+  parameter bit          BissB   = Features[mb4_pkg::BISS_B_LSB],
+  parameter bit          Ssi     = Features[mb4_pkg::SSI_LSB],
+  parameter bit          Mo      = Features[mb4_pkg::MO_LSB],
+  parameter bit          Control = Features[mb4_pkg::CONTROL_LSB],
+  parameter bit          Gray    = Features[mb4_pkg::GRAY_LSB],
+  parameter bit          Force   = Features[mb4_pkg::FORCE_LSB],
+  parameter bit          FreeCrc = Features[mb4_pkg::FREE_CRC_LSB],
+  parameter int unsigned Banks   = Features[mb4_pkg::TWO_BANKS_LSB] ? 2 : 1
 ) (
   // Wishbone
   input  logic        wb_clk_i,

@@ -98,8 +98,8 @@ def model(proof, folder, mutation=None):
     """Writes the model of a proof, with one mutation or none."""
     features = project.presets()[proof.preset]
     absent = "|".join(name for name, bit in PARAMETERS.items() if not features & bit) or "none"
-    defaults = ((re.compile(r"(parameter logic \[31:0\] Features = mb4_page_regs_pkg::)FEATURES_FULL\b"),
-                 rf"\1FEATURES_{proof.preset.upper()}"),
+    defaults = ((re.compile(r"(parameter logic \[31:0\] Features = )mb4_pkg::FEATURES_FULL\b"),
+                 rf"\1mb4_page_regs_pkg::FEATURES_{proof.preset.upper()}"),
                 (re.compile(rf"(parameter bit +(?:{absent}) += )1'b1\b"), r"\g<1>1'b0"))
     if folder.exists():
         shutil.rmtree(folder)

@@ -11,6 +11,7 @@ which Yosys 0.23 builds wrong hardware without a message; most of the others it 
 """
 
 import bisect
+import functools
 import re
 import sys
 import tempfile
@@ -22,17 +23,17 @@ sys.path.insert(0, str(HERE.parents[1] / "tools" / "synth"))
 import project  # noqa: E402
 from sv_widths import split_commas  # noqa: E402
 
-MAX_LINES = 350
 MAX_COLUMNS = 100
 USER_TYPE = r"(?:\w+::)?\w+_[te]\b"
 PLAIN_TYPE = r"(?:logic|bit|reg|wire|byte|int|integer|shortint|longint|genvar)\b"
+STRUCT = r"\b(?:\w+::)?\w+_t\b"
 DIMENSION = r"\[[^\]\n]*\]"
 
 # Constructs that a pattern finds anywhere outside comments, strings and FORMAL sections.
 PATTERNS = [
     (r"\bimport\b", "import: write pkg::name out"),
     (r"\breturn\b", "return: assign the function's name"),
-    (r"'\{", "assignment pattern '{...}: use a concatenation"),
+    (r"'\{", "assignment pattern '{...}: assign field by field"),
     (rf"{USER_TYPE}\s*(?:un)?(?:signed\b)?\s*\[", "W packed array of a user type"),
     (rf"{USER_TYPE}\s+\w+(?:\s*,\s*\w+)*\s*\[", "W unpacked array of a user type"),
     (r"\binside\b", "inside"),
@@ -197,6 +198,43 @@ def check_connections(file):
             file.report(match.start(1), "port connected by position")
 
 
+def struct_names(code):
+    """Variables and ports of a struct type."""
+    return {name for m in re.finditer(rf"{STRUCT}\s+(\w+(?:\s*,\s*\w+)*)\s*(?=[;,)])", code)
+            for name in re.split(r"\s*,\s*", m.group(1))}
+
+
+@functools.cache
+def struct_ports():
+    """{module: its ports of a struct type} of all RTL."""
+    found = {}
+    for path in project.RTL.rglob("*.sv"):
+        code = code_only(path.read_text(encoding="utf-8", errors="replace"))
+        header = re.search(r"\bmodule\s+(\w+).*?\)\s*;", code, re.S)
+        if header:
+            found[header.group(1)] = {m.group(1) for m in re.finditer(
+                rf"\b(?:input|output)\s+{STRUCT}\s+(\w+)", header.group(0))}
+    return found
+
+
+def check_fields(file):
+    """A struct is filled and read by its fields, never by their order."""
+    names = struct_names(file.code)
+    for match in file.matches(r"\b(\w+)\s*<?=\s*\{"):
+        if match.group(1) in names:
+            file.report(match.start(), f"concatenation into the struct {match.group(1)}: assign field by field")
+    for match in file.matches(r"\{([^{}=;]*)\}\s*<?=(?!=)"):
+        if names & set(re.split(r"\s*,\s*", match.group(1).strip())):
+            file.report(match.start(), "struct in a concatenation on the left: take slices, one for each")
+    for match in file.matches(r"^[ ]*([a-z]\w*_\w+)\s*(?:#\s*\((?:[^()]|\([^()]*\))*\)\s*)?u_\w+\s*\(", re.M):
+        ports = struct_ports().get(match.group(1), ())
+        end = file.code.find(";", match.end())
+        for port in re.finditer(r"\.(\w+)\s*\(\s*\{", file.code[match.end():end]):
+            if port.group(1) in ports:
+                file.report(match.end() + port.start(),
+                            f"concatenation into the struct port {port.group(1)}: assign field by field")
+
+
 # Falling edges of clocks: SL is sampled twice a clock, clocks are switched while they are low, SPI
 # sends after them, the bus latches the address. Everything else takes the rising edge.
 FALLING = {"biss_sl_capture.sv", "enc_clk_mux.sv", "mb4_spi_shift.sv", "mb4_spi.sv",
@@ -224,8 +262,6 @@ def check_style(file, generated):
     if not any("SPDX-FileCopyrightText: " in line for line in head) or \
             not any(line.endswith("SPDX-License-Identifier: Apache-2.0") for line in head):
         file.report(0, "the two SPDX lines are missing")
-    if len(lines) - 1 > MAX_LINES and not generated:
-        file.report(file.starts[MAX_LINES], f"{len(lines) - 1} lines, at most {MAX_LINES}")
     for start, line in zip(file.starts, lines):
         if len(line) > MAX_COLUMNS:
             file.report(start, f"{len(line)} columns, at most {MAX_COLUMNS}")
@@ -254,6 +290,7 @@ def check(path, name=None, generated=False):
     check_enum_methods(file)
     check_ports(file)
     check_connections(file)
+    check_fields(file)
     check_falling_edges(file)
     check_packages(file)
     check_style(file, generated)
@@ -318,6 +355,10 @@ BAD_BODIES = [
     ("parameter connected", "mb4_y #(8) u_y (.clk_i);"),
     ("port connected", "mb4_y #(.W(8)) u_y (clk_i);"),
     ("port connected", "mb4_y u_y (.clk_i, a);"),
+    ("concatenation into the struct both", "pair_t both;\nassign both = {a, b};"),
+    ("concatenation into the struct held_q", "mb4_pkg::instr_t held_q;\nalways_ff @(posedge clk_i) held_q <= {a, b};"),
+    ("struct in a concatenation", "pair_t one, two;\nassign {two, one} = a;"),
+    ("concatenation into the struct port", "mb4_memory u_y (.clear_i ({a, b}));"),
     ("tab", "\tlogic a;"),
     ("white space", "logic a; "),
     ("columns", "// " + "x" * 100),
@@ -336,7 +377,6 @@ BAD_FILES = [
     ("not the name", 3, SPDX + HEADER.replace("mb4_x", "mb4_z") + "endmodule\n"),
     ("second module", 8, SPDX + HEADER + "endmodule\nmodule mb4_y;\nendmodule\n"),
     ("no module", 1, SPDX),
-    ("351 lines", 351, SPDX + HEADER + "\n" * 344 + "endmodule\n"),
     ("a package refers", 4, SPDX + "package mb4_x;\n  localparam int unsigned A = mb4_z::B;\n"
                                    "endpackage\n"),
 ]
@@ -409,7 +449,8 @@ module mb4_x #(
     $error("Width is at least 8; return or inside in a string is free");
   end
 
-  assign both = {twice(START), 4'(a_i[3:0]), signed'(next)};
+  assign both.nibbles = {twice(START), 4'(a_i[3:0])};
+  assign both.last    = signed'(next);
   assign y_o  = held_q;
 
 `ifdef FORMAL

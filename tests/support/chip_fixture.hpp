@@ -20,6 +20,7 @@
 #include "sim/masters/mb4/pins.hpp"
 #include "sim/scenario/scenario.hpp"
 #include "tests/support/test_host.hpp"
+#include "tests/support/wave.hpp"
 
 namespace mb4test {
 
@@ -29,7 +30,7 @@ namespace sim = mb4::sim;
 class Chip {
  public:
   explicit Chip(const std::string& scenario)
-      : simulator(with_test_host(sim::parse_scenario(scenario, "test.toml"))),
+      : simulator(with_test_host(sim::parse_scenario(scenario, "test.toml")), with_wave()),
         bus(simulator),
         clock(simulator),
         device(bus, clock) {}

@@ -18,6 +18,7 @@
 #include "sim/masters/mb4/pins.hpp"
 #include "sim/scenario/scenario.hpp"
 #include "tests/support/test_host.hpp"
+#include "tests/support/wave.hpp"
 
 namespace mb4test {
 
@@ -40,7 +41,7 @@ class Session {
   // Writes scenario and word files into `folder` and loads them from there.
   Session(const WordScenario& scenario, const std::filesystem::path& folder,
           const mb4::sim::SimulatorOptions& options = {})
-      : folder_(folder), simulator_(load(scenario, folder), options) {}
+      : folder_(folder), simulator_(load(scenario, folder), with_wave(options)) {}
 
   // --- what a line of the script can do -------------------------------------------------------
   std::vector<std::uint8_t> spi(const std::vector<std::uint8_t>& tx) {

@@ -190,8 +190,8 @@ class Automatic {
   // frames may meet the end of each one for so long. Back to back a period is frame_timeout_us().
   // With FrameStart::kOnPin only if Config::pin_period_us says how often pulses come. Nothing is
   // changed, and each call says so until a frame ends: call restart(). A dead line on one channel
-  // stops both, see without_channel(). kCrc, by each call: the same without a stored CRC, if the
-  // last frame was bad and the chip has left none out.
+  // stops both, see without_channel(). Where no CRC is stored and the last frame was bad, such a
+  // time ends with kCrc instead, if the chip has left no frame out; each call says so again.
   Result<void> poll(Frame& frame) { return detail::Blocking::poll(chip_, frame); }
 
   // As poll(), for one slave (1..8). At most kMaxPollSlaveTransfers transfers, with SpiCheck::kFull

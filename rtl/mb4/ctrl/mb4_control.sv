@@ -8,7 +8,7 @@
 // Vectors: bit i of a vector {2, 1} is for line i + 1.
 
 module mb4_control #(
-  parameter logic [31:0] Features = mb4_page_regs_pkg::FEATURES_FULL
+  parameter logic [31:0] Features = mb4_pkg::FEATURES_FULL
 ) (
   input  logic clk_i,
   input  logic rst_ni,
@@ -43,9 +43,9 @@ module mb4_control #(
   output logic       frame_lost_o     // a frame was left out or overwritten
 );
 
-  localparam bit TWO_LINES = Features[mb4_page_regs_pkg::TWO_LINES_LSB];
-  localparam bit BISS_B    = Features[mb4_page_regs_pkg::BISS_B_LSB];
-  localparam bit SSI       = Features[mb4_page_regs_pkg::SSI_LSB];
+  localparam bit TWO_LINES = Features[mb4_pkg::TWO_LINES_LSB];
+  localparam bit BISS_B    = Features[mb4_pkg::BISS_B_LSB];
+  localparam bit SSI       = Features[mb4_pkg::SSI_LSB];
 
   mb4_pkg::kind_t         kind;
   mb4_pkg::request_t      request;
@@ -59,6 +59,8 @@ module mb4_control #(
   // lines
   logic [3:0] protocol_q;
   logic [1:0] start_use, cdm0, cdm1, mo_low, forced, force_level;
+  biss_pkg::line_cmd_t   cmd1, cmd2;
+  biss_pkg::line_start_t start1, start2;
   logic force_change, force_any, keep_time, keep_time_q;
 
   mb4_sequencer #(.BissB(BISS_B)) u_sequencer (
@@ -163,13 +165,13 @@ module mb4_control #(
 
   assign frame_lost_o = frame_flags.ags_error || frame_flags.bank_fail || bank_event_i.lost;
 
-  // Frames run, or will come by themselves. A frame that the host has to ask for, or that it holds
-  // back with HOLDBANK, may come as late as the host likes.
+  // A frame runs, or automatic frames come without the host. A time limit on the next frame needs
+  // this: a frame that the host asks for, or holds back with HOLDBANK, has no latest time.
   assign automatic_frames = instr_o.held.ags && !request.infinite;
   assign live = !flags_o.eot || (automatic_frames &&
                            !(instr_o.held.holdbank && quirks_i[mb4_pkg::QUIRK_AGSERR_ON_HOLDBANK]));
 
-  mb4_ma_force #(.Force(Features[mb4_page_regs_pkg::FORCE_LSB])) u_force (
+  mb4_ma_force #(.Force(Features[mb4_pkg::FORCE_LSB])) u_force (
     .clk_i,
     .rst_ni,
     .mafs_i   (cfg_i.mafs),
@@ -203,13 +205,29 @@ module mb4_control #(
     end
   end
 
-  assign cmd_o = {
-    protocol_q[3:2], cfg_i.en_mo, cfg_i.mo_busy,
-    cfg_i.holdcdm, forced[1], force_level[1], mo_low[1],
-    protocol_q[1:0], cfg_i.en_mo, cfg_i.mo_busy,
-    cfg_i.holdcdm, forced[0], force_level[0], mo_low[0]
-  };
-  assign start_o = {start_use[1], cdm0[1], cdm1[1], start_use[0], cdm0[0], cdm1[0]};
+  assign cmd1.protocol    = protocol_q[1:0];
+  assign cmd1.mo_en       = cfg_i.en_mo;
+  assign cmd1.mo_busy     = cfg_i.mo_busy;
+  assign cmd1.hold_cdm    = cfg_i.holdcdm;
+  assign cmd1.forced      = forced[0];
+  assign cmd1.force_level = force_level[0];
+  assign cmd1.mo_low      = mo_low[0];
+  assign cmd2.protocol    = protocol_q[3:2];
+  assign cmd2.mo_en       = cfg_i.en_mo;
+  assign cmd2.mo_busy     = cfg_i.mo_busy;
+  assign cmd2.hold_cdm    = cfg_i.holdcdm;
+  assign cmd2.forced      = forced[1];
+  assign cmd2.force_level = force_level[1];
+  assign cmd2.mo_low      = mo_low[1];
+  assign cmd_o            = {cmd2, cmd1};
+
+  assign start1.takes_part = start_use[0];
+  assign start1.cdm0       = cdm0[0];
+  assign start1.cdm1       = cdm1[0];
+  assign start2.takes_part = start_use[1];
+  assign start2.cdm0       = cdm0[1];
+  assign start2.cdm1       = cdm1[1];
+  assign start_o           = {start2, start1};
 
   // A forced level lasts whole half periods, and a time limit counts them.
   always_ff @(posedge clk_i or negedge rst_ni) begin

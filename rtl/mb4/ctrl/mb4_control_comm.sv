@@ -12,7 +12,7 @@
 // Vectors: bit i of a vector {2, 1} is for line i + 1.
 
 module mb4_control_comm #(
-  parameter logic [31:0] Features = mb4_page_regs_pkg::FEATURES_FULL
+  parameter logic [31:0] Features = mb4_pkg::FEATURES_FULL
 ) (
   input  logic       clk_i,
   input  logic       rst_ni,
@@ -55,9 +55,9 @@ module mb4_control_comm #(
   output logic       ags_error_o
 );
 
-  localparam bit BISS_B  = Features[mb4_page_regs_pkg::BISS_B_LSB];
-  localparam bit MO      = Features[mb4_page_regs_pkg::MO_LSB];
-  localparam bit CONTROL = Features[mb4_page_regs_pkg::CONTROL_LSB];
+  localparam bit BISS_B  = Features[mb4_pkg::BISS_B_LSB];
+  localparam bit MO      = Features[mb4_pkg::MO_LSB];
+  localparam bit CONTROL = Features[mb4_pkg::CONTROL_LSB];
 
   logic       time_d, time_q;
   logic       refused_d, refused_q;    // SL was low: no frame since the last request
@@ -77,7 +77,8 @@ module mb4_control_comm #(
   biss_pkg::access_end_t  control_end, register_end;
   biss_pkg::line_status_t status1, status2;
 
-  assign {status2, status1} = status_i;
+  assign status1 = status_i[0 +: biss_pkg::LINE_STATUS_W];
+  assign status2 = status_i[biss_pkg::LINE_STATUS_W +: biss_pkg::LINE_STATUS_W];
 
   // The host may configure the next access while one runs (decision 38). Its settings are here two
   // clocks after the end. In the clock between, the sequencer waits (stale_o).
@@ -86,8 +87,11 @@ module mb4_control_comm #(
     else if (!run) access_q <= cfg_i.access;
   end
 
-  assign access = {access_q.cts, access_q.wnr, access_q.regadr, access_q.regnum,
-                   access_q.slaveid};
+  assign access.cts       = access_q.cts;
+  assign access.write     = access_q.wnr;
+  assign access.addr      = access_q.regadr;
+  assign access.byte_last = access_q.regnum;
+  assign access.id        = access_q.slaveid;
 
   mb4_frame_kind #(.Control(CONTROL)) u_kind (
     .instr_i,
@@ -130,7 +134,8 @@ module mb4_control_comm #(
       .end_o         (control_end)
     );
   end else begin : gen_no_control
-    assign {control_byte, control_end}  = '0;
+    assign control_byte = '0;
+    assign control_end  = '0;
     assign {active_o, active_start_o, control_runs, in_body, waiting, moved, control_begin} = '0;
     assign {control0, control1} = '0;
   end
@@ -163,19 +168,28 @@ module mb4_control_comm #(
       .end_o     (register_end)
     );
   end else begin : gen_no_biss_b
-    assign {register_byte, register_end, register_ma_o, register_mo_o} = '0;
+    assign register_byte = '0;
+    assign register_end  = '0;
+    assign register_ma_o = '0;
+    assign register_mo_o = '0;
     assign {register_active, register_wait, ags_error_o} = '0;
   end
 
   // A byte is written one clock later. This keeps the memory, and the queue of the host's writes,
   // out of the long paths. The end of an access reaches the flags no earlier.
   assign rdata   = register_active ? register_byte : control_byte;
-  assign rdata_o = {rdata_wr_q, active_o || register_active, rdata.addr};
+  assign rdata_o.wr      = rdata_wr_q;
+  assign rdata_o.rd.en   = active_o || register_active;
+  assign rdata_o.rd.addr = rdata.addr;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) rdata_wr_q <= '0;
-    else         rdata_wr_q <= {control_byte.wr_en || register_byte.wr_en, rdata.addr,
-                                rdata.wr_data};
+    if (!rst_ni) begin
+      rdata_wr_q <= '0;
+    end else begin
+      rdata_wr_q.en   <= control_byte.wr_en || register_byte.wr_en;
+      rdata_wr_q.addr <= rdata.addr;
+      rdata_wr_q.data <= rdata.wr_data;
+    end
   end
 
   mb4_cdm_select u_cdm (
@@ -246,13 +260,14 @@ module mb4_control_comm #(
   // ---- results ------------------------------------------------------------------------------
 
   // REGEND falls with the instruction. It does not wait for the frame of the access.
-  assign event_o = {
-    control_begin || register_want_i,
-    control_end.ends || register_end.ends || void_q,
-    void_q || (control_end.ends ? control_end.reg_error : register_end.reg_error),
-    control_end.ends ? control_end.delay_error : register_end.delay_error
-  };
-  assign state_o = {cdm_timeout, register_q ? register_end.good_bytes : control_end.good_bytes};
+  assign event_o.begins      = control_begin || register_want_i;
+  assign event_o.ends        = control_end.ends || register_end.ends || void_q;
+  assign event_o.reg_error   = void_q || (control_end.ends ?
+                               control_end.reg_error : register_end.reg_error);
+  assign event_o.delay_error = control_end.ends ?
+                               control_end.delay_error : register_end.delay_error;
+  assign state_o.cdm_timeout = cdm_timeout;
+  assign state_o.good_bytes  = register_q ? register_end.good_bytes : control_end.good_bytes;
   // Only modules that Features can leave out use the other signals.
   assign unused  = ^{rdata.wr_en, access, quirks_i, rdata_i, post_busy_i, begin_i, start_use_i,
                      tick_i, moved, expired, register_wait, cfg_i.freqr};

@@ -52,7 +52,15 @@ module mb4_frame_kind #(
   assign is_register = control && fits != 2'b00 && !access_i.regvers;
   assign is_control  = control && fits != 2'b00 && access_i.regvers;
   assign is_frame    = is_control || is_register || (instr_i != 3'b000 && !instr_i[2]);
-  assign kind_o      = {in_use, ssi, manual, select, is_register ? select : in_use,
-                        in_use & ~ssi, is_frame, is_control, is_register, control && fits == 2'b00};
+  assign kind_o.in_use      = in_use;
+  assign kind_o.ssi         = ssi;
+  assign kind_o.manual      = manual;
+  assign kind_o.select      = select;
+  assign kind_o.frame_use   = is_register ? select : in_use;
+  assign kind_o.init_use    = in_use & ~ssi;
+  assign kind_o.is_frame    = is_frame;
+  assign kind_o.is_control  = is_control;
+  assign kind_o.is_register = is_register;
+  assign kind_o.is_void     = control && fits == 2'b00;
 
 endmodule

@@ -100,7 +100,10 @@ module mb4_frame_request (
   assign by_time = ags_i && (agsmin_q || pending_q);
   assign by_pin  = ags_i && infinite_q && getsens && (armed_q || !hold_cdm_i);
   assign asks    = by_time || by_pin;
-  assign request_o = {by_time || (by_pin && lines_idle_i), asks, agsmin_q, infinite_q};
+  assign request_o.due      = by_time || (by_pin && lines_idle_i);
+  assign request_o.asks     = asks;
+  assign request_o.agsmin   = agsmin_q;
+  assign request_o.infinite = infinite_q;
   assign missed_o  = due && busy_i;
 
 endmodule

@@ -99,10 +99,10 @@ module mb4_sequencer #(
   biss_pkg::line_event_t  event1, event2;
   logic [1:0]       ack, idle, line_end, init_done, init_fail;
   logic             held_back, may_run;  // a frame is held back by HOLDBANK, may run
-  logic             start, init, register_access, mo_return, abort;
+  logic             start, init, register_access, abort;
   logic             frame_end, swap, all_idle, sl_low, sl_high, rests, waited;
   logic             returned, runs;        // INIT's timeout is over; a frame or INIT goes on
-  logic             busy, clear_flags, scd_en, ags_error, bank_fail;
+  logic             scd_en, ags_error, bank_fail;
   logic             by_instr, begins;  // INSTR asks for a frame, for a control communication
   logic             register_d, register_q;  // a BiSS B register access runs, not a frame
   logic             awaits_d, awaits_q;      // one waits for its automatic frame
@@ -111,13 +111,17 @@ module mb4_sequencer #(
   // has 1024 MA periods to return to 1. The longest timeout in the field has 400 (40 us, 10 MHz).
   localparam logic [11:0] WAIT = 12'hFFF;  // its highest bit counts with cut_q: 0 = lines rest
 
+  // ---- inputs -----------------------------------------------------------------------------------
+
   // ack comes two clocks after new_q. REGEND has fallen by then.
   enc_count_rx u_written (
     .clk_i, .rst_ni, .count_i (instr_i.count), .pulse_o (written), .ack_o (ack)
   );
 
-  assign {status2, status1} = status_i;
-  assign {event2, event1}   = event_i;
+  assign status1 = status_i[0 +: biss_pkg::LINE_STATUS_W];
+  assign status2 = status_i[biss_pkg::LINE_STATUS_W +: biss_pkg::LINE_STATUS_W];
+  assign event1 = event_i[0 +: biss_pkg::LINE_EVENT_W];
+  assign event2 = event_i[biss_pkg::LINE_EVENT_W +: biss_pkg::LINE_EVENT_W];
   assign asked     = instr_i.written;
   assign idle      = {status2.idle, status1.idle};
   assign line_end  = {event2.line_end, event1.line_end};
@@ -153,15 +157,20 @@ module mb4_sequencer #(
   assign may_run     = !mem_i.clears && kind_i.in_use != 2'b00 &&
                        !(stale_i && held_q.instr != 3'b000);
 
-  // start and init stand apart from the cases below: all lines wait for them, so they take only
-  // all_idle of the lines. If all are idle, a request by GETSENS is due, and SL counts on each line
-  // in use.
+  // ---- start of a frame or of INIT ------------------------------------------------------------
+
+  // The cases below decide the same (StartAsDecided_A). start and init stand apart, because all
+  // lines wait for them late in the clock: of the lines they take all_idle and SL, nothing else.
+  // While all lines are idle each request by GETSENS is due, and a line in use whose SL is low
+  // lets no frame begin.
   assign init        = all_idle && state_q == IDLE && held_q.init && !cut_q &&
                        kind_i.init_use != 2'b00 && (BissB || regvers_i);
   assign start       = all_idle && state_q == IDLE && !(written && asked.brk) &&
                        (held_q.init
                             ? !cut_q && kind_i.init_use != 2'b00 && (BissB || regvers_i)
                             : may_run && (by_instr || request_i.asks) && !held_back && sl_high);
+
+  // ---- states -----------------------------------------------------------------------------------
 
   always_comb begin
     state_d      = state_q;
@@ -276,9 +285,9 @@ module mb4_sequencer #(
     if (ags_error && quirks_i[mb4_pkg::QUIRK_AGS_CLEARED_ON_ERROR]) held_d.ags = 1'b0;
 
     if (written) begin
-      // INSTR written with the code whose frame runs is no new request. A frame runs from its first
-      // clock to the one before its end. A write does not cancel an INIT; automatic frames wait for
-      // its end.
+      // INSTR written with the code whose frame runs is no new request. A frame runs from the clock
+      // of start to the last clock of FRAME. A write does not cancel an INIT; automatic frames wait
+      // until the INIT has ended.
       new_d = asked.instr != 3'b000 &&
               (new_d || !(state_q == FRAME || (start && !init)) || asked.instr != held_q.instr);
       held_d.holdbank = asked.holdbank;
@@ -299,14 +308,21 @@ module mb4_sequencer #(
       end
       if (quirks_i[mb4_pkg::QUIRK_AGSERR_ON_INSTR_WR]) ags_error = 1'b1;
     end
-    clear_flags = init_clear_o || break_o;
   end
+
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       state_q    <= IDLE;
       held_q     <= '0;
-      {new_q, use_q, done_q, bad_q, reduced_q, register_q, awaits_q} <= '0;
-      {cut_q, wait_q} <= '1;
+      new_q      <= 1'b0;
+      use_q      <= 2'b00;
+      done_q     <= 2'b00;
+      bad_q      <= 1'b0;
+      reduced_q  <= 1'b0;
+      register_q <= 1'b0;
+      awaits_q   <= 1'b0;
+      cut_q      <= 1'b1;
+      wait_q     <= WAIT;
     end else begin
       state_q    <= state_d;
       held_q     <= held_d;
@@ -317,29 +333,51 @@ module mb4_sequencer #(
       reduced_q  <= reduced_d;
       register_q <= register_d;
       awaits_q   <= awaits_d;
-      {cut_q, wait_q} <= {cut_d, wait_d};
+      cut_q      <= cut_d;
+      wait_q     <= wait_d;
     end
   end
 
-  // Slaves that pass MO on do not show their timeout on SL. So MO stays low for half of WAIT,
-  // which covers the timeout, and SL has the other half to follow MO (decision 39).
-  assign mo_return = state_q == INIT_TIMEOUT && !wait_q[10];
-  assign instr_o     = {ack, held_q};
-  assign frame_done_o = state_q == FRAME_DONE && !register_q;
-  assign frame_end   = frame_done_o && !(written && asked.brk);
-  assign go_o        = {start, init, register_access, reduced_d, mo_return, abort};
-  assign bank_o      = {state_q == FRAME && !reduced_q && !register_q, frame_end,
-                        frame_end && !reduced_q, reduced_q, swap, init && regvers_i};
-  assign flags_o     = {busy, clear_flags, scd_en, bad_d, ags_error, bank_fail};
+  // ---- outputs ------------------------------------------------------------------------------
+
+  assign instr_o.ack  = ack;
+  assign instr_o.held = held_q;
+
   assign running_o    = state_q != IDLE;
   assign lines_idle_o = all_idle;
-  // runs is state_d != IDLE, but the last bit of a frame and SL do not end it: they come late. With
-  // AGS = 1 INSTR asks for no frame, unless FREQAGS is AGSINFINITE.
+  assign frame_done_o = state_q == FRAME_DONE && !register_q;
+  assign frame_end    = frame_done_o && !(written && asked.brk);
+
+  assign go_o.start           = start;
+  assign go_o.init            = init;
+  assign go_o.register_access = register_access;
+  assign go_o.reduced         = reduced_d;
+  // Slaves that pass MO on do not show their timeout on SL. So MO stays low for half of WAIT, which
+  // covers the timeout. In the other half SL follows MO (decision 39).
+  assign go_o.mo_return       = state_q == INIT_TIMEOUT && !wait_q[10];
+  assign go_o.stop            = abort;
+
+  assign bank_o.run       = state_q == FRAME && !reduced_q && !register_q;
+  assign bank_o.frame_end = frame_end;
+  assign bank_o.data_end  = frame_end && !reduced_q;
+  assign bank_o.reduced   = reduced_q;
+  assign bank_o.swap      = swap;
+  assign bank_o.clear     = init && regvers_i;
+
+  assign flags_o.busy      = runs || (new_d && (!held_d.ags || request_i.infinite)) || held_d.init;
+  assign flags_o.clear     = init_clear_o || break_o;
+  assign flags_o.scd_en    = scd_en;
+  assign flags_o.scd_bad   = bad_d;
+  assign flags_o.ags_error = ags_error;
+  assign flags_o.bank_fail = bank_fail;
+
+  // runs has the value of state_d != IDLE, computed without the last bit of a frame and without SL,
+  // which come late in the clock and do not end a frame. flags_o.busy needs it: with AGS = 1 an
+  // INSTR asks for no frame, unless FREQAGS is AGSINFINITE.
   assign returned = (use_q & ~idle) == 2'b00 || waited;
-  assign runs = start || (!(written && asked.brk) &&
-                          (state_q == FRAME || state_q == INIT ||
-                           (state_q == INIT_TIMEOUT && !returned)));
-  assign busy = runs || (new_d && (!held_d.ags || request_i.infinite)) || held_d.init;
+  assign runs     = start || (!(written && asked.brk) &&
+                              (state_q == FRAME || state_q == INIT ||
+                               (state_q == INIT_TIMEOUT && !returned)));
 
   `ENC_ASSERT(BreakIsNotKept_A, clk_i, rst_ni, !held_q.brk)
   `ENC_ASSERT_IF(StartAsDecided_A, clk_i, rst_ni, !(written && asked.brk),

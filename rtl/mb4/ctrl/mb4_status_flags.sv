@@ -93,9 +93,15 @@ module mb4_status_flags (
   end
 
   // REGBYTES tells the number of good bytes only after an error (Table 63).
-  assign flags_o = {n_agserr_q, n_delayerr_q, n_scderr_q, n_regerr_q, regend_q, eot_q, fail_q,
-                    access_state_i.cdm_timeout,
-                    (n_regerr_q && n_delayerr_q) ? 6'd0 : access_state_i.good_bytes};
+  assign flags_o.n_agserr    = n_agserr_q;
+  assign flags_o.n_delayerr  = n_delayerr_q;
+  assign flags_o.n_scderr    = n_scderr_q;
+  assign flags_o.n_regerr    = n_regerr_q;
+  assign flags_o.regend      = regend_q;
+  assign flags_o.eot         = eot_q;
+  assign flags_o.swbank_fail = fail_q;
+  assign flags_o.cdm_timeout = access_state_i.cdm_timeout;
+  assign flags_o.regbytes    = (n_regerr_q && n_delayerr_q) ? 6'd0 : access_state_i.good_bytes;
   assign ner_low_o = ner_low_q;
 
 endmodule

@@ -90,8 +90,8 @@ module mb4_bridge #(
   logic [2:0]  count_d, count_q;
   logic [1:0]  place;        // of the byte in the word
   logic        wr_en;
-  logic [7:0]  posted_q;     // bytes that may wait in the queue
-  logic [1:0]  fresh_q;      // clocks until empty knows of the last one
+  logic [7:0]  posted_d, posted_q;  // bytes that may wait in the queue
+  logic [1:0]  fresh_d, fresh_q;    // clocks until empty knows of the last one
   logic        post;
   logic        empty;
   logic        blocked;      // the access waits for the queue
@@ -102,7 +102,7 @@ module mb4_bridge #(
   logic [3:0]  shadow;            // of channel 1..8, or the time
   logic [8:0]  shown_d, shown_q;  // shadows that hold an answer
   mb4_pkg::page_req_t page_q;
-  logic [LIMIT_W-1:0] limit_q;
+  logic [LIMIT_W-1:0] limit_d, limit_q;
   logic        waits, expired;
   // answer
   logic [31:0] data_d, data_q;
@@ -176,8 +176,11 @@ module mb4_bridge #(
   // 0xF4 comes after the three bytes above it.
   assign place  = count_q[1:0] + {1'b0, instr && word_write_i};
   assign wr_en  = state_q == BYTES && word_req_i && word_write_i && word_be_i[place];
-  assign host_o = {wr_en, index, place, word_data_i[{place, 3'b000} +: 8],
-                   state_q == BYTES && !word_write_i && !count_q[2], index, place};
+  assign host_o.wr_en   = wr_en;
+  assign host_o.wr_addr = {index, place};
+  assign host_o.wr_data = word_data_i[{place, 3'b000} +: 8];
+  assign host_o.rd_en   = state_q == BYTES && !word_write_i && !count_q[2];
+  assign host_o.rd_addr = {index, place};
   assign post   = wr_en && (memory || (posts && (place == 2'd1 || place == 2'd2)));
 
   assign blocked = word_write_i ? posts && posted_q > ROOM
@@ -189,6 +192,10 @@ module mb4_bridge #(
   assign waits   = (state_q == QUEUE && blocked) || (state_q == ASK && !free) ||
                    (state_q == ANSWER && !free);
   assign expired = limit_q == LIMIT_W'(WaitLimit);
+
+  assign posted_d = (empty && fresh_q == 2'd0 && !post) ? 8'd0 : posted_q + 8'(post);
+  assign fresh_d  = post ? 2'd3 : fresh_q - {1'b0, fresh_q != 2'd0};
+  assign limit_d  = (!waits || beat != beat_q) ? '0 : limit_q + LIMIT_W'(!expired);
 
   always_comb begin
     state_d = state_q;
@@ -228,7 +235,8 @@ module mb4_bridge #(
         end
       end
       ANSWER: begin
-        // The core fills the shadow. The address may have gone with the request.
+        // The core fills the shadow. Without the request word_addr_i, and so shadow, may be another
+        // one's.
         if (free && word_req_i) begin
           state_d = SHADOW;
           shown_d[shadow] = 1'b1;
@@ -273,12 +281,16 @@ module mb4_bridge #(
     end else begin
       state_q  <= state_d;
       count_q  <= count_d;
-      posted_q <= (empty && fresh_q == 2'd0 && !post) ? 8'd0 : posted_q + 8'(post);
-      fresh_q  <= post ? 2'd3 : fresh_q - {1'b0, fresh_q != 2'd0};
+      posted_q <= posted_d;
+      fresh_q  <= fresh_d;
       beat_q   <= beat;
       shown_q  <= shown_d;
-      if (ask) page_q <= {!page_q.req, time_low, channel};
-      limit_q  <= (!waits || beat != beat_q) ? '0 : limit_q + LIMIT_W'(!expired);
+      if (ask) begin
+        page_q.req     <= !page_q.req;
+        page_q.stamp   <= time_low;
+        page_q.channel <= channel;
+      end
+      limit_q  <= limit_d;
       data_q   <= data_d;
       error_q  <= error_d;
     end

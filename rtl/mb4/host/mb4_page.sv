@@ -23,7 +23,7 @@
 // Source: datasheet pages 12..16; decision 45.
 
 module mb4_page #(
-  parameter logic [31:0] Features = mb4_page_regs_pkg::FEATURES_FULL
+  parameter logic [31:0] Features = mb4_pkg::FEATURES_FULL
 ) (
   input  logic        clk_i,
   input  logic        rst_ni,
@@ -46,9 +46,30 @@ module mb4_page #(
 );
 
   localparam int unsigned TAG_W = 96;
-  localparam bit TWO_LINES = Features[mb4_page_regs_pkg::TWO_LINES_LSB];
+
+`ifndef __ICARUS__  // Icarus 11 knows no $error here
+  // The map of the page has the bits of mb4_pkg.
+  if (mb4_page_regs_pkg::RESET_FEATURES != mb4_pkg::FEATURES_FULL ||
+      mb4_page_regs_pkg::FEATURES_FULL != mb4_pkg::FEATURES_FULL ||
+      mb4_page_regs_pkg::FEATURES_BYTE != 32'(mb4_pkg::ADDR_FEATURES) ||
+      mb4_page_regs_pkg::FREE_CRC_LSB != mb4_pkg::FREE_CRC_LSB ||
+      mb4_page_regs_pkg::SLAVES_ON_LINE_LSB != mb4_pkg::SLAVES_ON_LINE_LSB ||
+      mb4_page_regs_pkg::CONTROL_LSB != mb4_pkg::CONTROL_LSB ||
+      mb4_page_regs_pkg::MO_LSB != mb4_pkg::MO_LSB ||
+      mb4_page_regs_pkg::SSI_LSB != mb4_pkg::SSI_LSB ||
+      mb4_page_regs_pkg::BISS_B_LSB != mb4_pkg::BISS_B_LSB ||
+      mb4_page_regs_pkg::TWO_LINES_LSB != mb4_pkg::TWO_LINES_LSB ||
+      mb4_page_regs_pkg::GRAY_LSB != mb4_pkg::GRAY_LSB ||
+      mb4_page_regs_pkg::FORCE_LSB != mb4_pkg::FORCE_LSB ||
+      mb4_page_regs_pkg::TWO_BANKS_LSB != mb4_pkg::TWO_BANKS_LSB ||
+      mb4_page_regs_pkg::SLAVES_LSB != mb4_pkg::SLAVES_LSB) begin : gen_map
+    $error("FEATURES in mb4_page.rdl has not the bits of mb4_pkg");
+  end
+`endif
+
+  localparam bit TWO_LINES = Features[mb4_pkg::TWO_LINES_LSB];
   localparam logic [7:0] PRESENT = mb4_pkg::channels(TWO_LINES,
-                                                     Features[mb4_page_regs_pkg::SLAVES_LSB +: 4]);
+                                                     Features[mb4_pkg::SLAVES_LSB +: 4]);
 
   typedef enum logic [1:0] {
     REST,
@@ -57,6 +78,7 @@ module mb4_page #(
     STAMP
   } state_e;
 
+  mb4_pkg::reg_tap_t regs;
   state_e      state_q;
   logic [3:0]  step_q;
   logic        req, ack_q;
@@ -93,6 +115,8 @@ module mb4_page #(
   logic [4:0]  good, good_q;
   logic        regend_q;
   logic        unused;
+
+  assign regs = tap_i.regs;
 
   enc_time u_time (
     .clk_i,
@@ -156,8 +180,8 @@ module mb4_page #(
 
   // The words of one line end at least two clocks apart.
   assign tag_wr   = tap_i.done != 2'b00 || late_q;
-  assign tag_addr = tap_i.done[0] ? {tap_i.banks.eng, tap_i.slave[2:0]}
-                                  : late_q ? late_addr_q : {tap_i.banks.eng, tap_i.slave[5:3]};
+  assign tag_addr = tap_i.done[0] ? {regs.banks.eng, tap_i.slave[2:0]}
+                                  : late_q ? late_addr_q : {regs.banks.eng, tap_i.slave[5:3]};
 
   enc_ram #(.Width(TAG_W), .AddrW(4)) u_tags (
     .wr_clk_i  (clk_i),
@@ -166,7 +190,7 @@ module mb4_page #(
     .wr_data_i (tap_i.done[0] ? tag1_q : tag2_q),
     .rd_clk_i  (clk_i),
     .rd_en_i   (rd_en_o),
-    .rd_addr_i ({tap_i.banks.host, page_i.channel}),
+    .rd_addr_i ({regs.banks.host, page_i.channel}),
     .rd_data_o (tag)
   );
 
@@ -178,9 +202,9 @@ module mb4_page #(
       has_tag_q   <= 1'b0;
     end else begin
       late_q <= tap_i.done == 2'b11;
-      late_addr_q <= {tap_i.banks.eng, tap_i.slave[5:3]};
+      late_addr_q <= {regs.banks.eng, tap_i.slave[5:3]};
       if (tag_wr) tagged_q[tag_addr] <= 1'b1;
-      has_tag_q <= tagged_q[{tap_i.banks.host, page_i.channel}];
+      has_tag_q <= tagged_q[{regs.banks.host, page_i.channel}];
     end
   end
 
@@ -190,16 +214,16 @@ module mb4_page #(
   assign hit[1] = (tap_i.wr[1] || tap_i.done[1]) && tap_i.slave[5:3] == page_i.channel;
   // The memory and SVALID change one clock after tap_i tells it: the copy begins again once more,
   // which is no further try.
-  assign disturbed = tap_i.banks.host != host_q || !tap_i.ready || late_q ||
-                     (tap_i.banks.host == tap_i.banks.eng && hit != 2'b00);
-  assign again     = disturbed || (tap_i.banks.host == tap_i.banks.eng && hit_q != 2'b00);
+  assign disturbed = regs.banks.host != host_q || !tap_i.ready || late_q ||
+                     (regs.banks.host == regs.banks.eng && hit != 2'b00);
+  assign again     = disturbed || (regs.banks.host == regs.banks.eng && hit_q != 2'b00);
 
   assign last      = &tries_q;
 
   assign rd_en_o   = state_q == COPY && !step_q[3];
   assign rd_addr_o = {page_i.channel[1:0], step_q[2:0]};
-  assign pair      = page_i.channel[2] ? tap_i.hi : tap_i.lo;
-  assign data      = tap_i.banks.host ? pair[15:8] : pair[7:0];
+  assign pair      = page_i.channel[2] ? regs.hi : regs.lo;
+  assign data      = regs.banks.host ? pair[15:8] : pair[7:0];
   assign line2     = page_i.channel[2] && tap_i.slaveloc5;
 
   always_comb begin
@@ -220,8 +244,8 @@ module mb4_page #(
         4'd10: begin
           row_wr   = 1'b1;
           row      = 3'd2;
-          row_data = {29'd0, tap_i.swbank_fail, tap_i.cds[{tap_i.banks.host, line2}],
-                      tap_i.svalid[{tap_i.banks.host, page_i.channel}] && !last} &
+          row_data = {29'd0, tap_i.swbank_fail, regs.cds[{regs.banks.host, line2}],
+                      regs.svalid[{regs.banks.host, page_i.channel}] && !last} &
                      {32{PRESENT[page_i.channel]}};
         end
         4'd11: begin
@@ -254,7 +278,7 @@ module mb4_page #(
       word_q  <= '0;
       tries_q <= '0;
     end else begin
-      host_q <= tap_i.banks.host;
+      host_q <= regs.banks.host;
       hit_q  <= hit;
       step_q <= step_q + 4'd1;
       word_q <= state_q == STAMP ? now[63:32] : {data, word_q[31:8]};
@@ -327,6 +351,6 @@ module mb4_page #(
   assign ack_o   = ack_q;
   assign beat_o  = now[3];
 
-  assign unused = tap_i.empty;
+  assign unused = regs.empty;
 
 endmodule

@@ -44,7 +44,8 @@ module mb4_spi2 (
     else if (host.rd_en) inside_q <= host.rd_addr[7:5] == FIRST[7:5];
   end
 
-  assign read_o = {host.rd_en, host.rd_addr[5:0]};
+  assign read_o.en   = host.rd_en;
+  assign read_o.addr = host.rd_addr[5:0];
 
   // A read-only interface does not use the write signals.
   logic unused;

@@ -119,7 +119,11 @@ module mb4_spi_cmd #(
   end
 
   assign tx_en_o = state_q == READ;
-  assign host_o  = {wr_en, addr_q, byte_i, rd_en, addr_d};
+  assign host_o.wr_en   = wr_en;
+  assign host_o.wr_addr = addr_q;
+  assign host_o.wr_data = byte_i;
+  assign host_o.rd_en   = rd_en;
+  assign host_o.rd_addr = addr_d;
 
   `ENC_ASSERT(StateInRange_A, sclk_i, frame_rst_ni, state_q <= IGNORE)
   `ENC_ASSERT(ReadOrWrite_A, sclk_i, frame_rst_ni, !(wr_en && rd_en))

@@ -11,10 +11,10 @@
 //   lost (event_o.lost).
 // - A change of SWBANK swaps the banks once, with HOLDBANK set or not.
 // - With SINGLEBANK both sides use the host's bank, and the end of a frame swaps nothing.
-// - HOLDBANK arrives here some clocks after the host has written it. While it is set here, and when
-//   it is cleared, the base follows the one that the host keeps (mb4_instr_reg). So a swap that the
-//   end of a frame has made in between is undone and stays pending. A host that has cleared
-//   HOLDBANK and set it again gets the swap that was pending, even if the 0 never arrives here.
+// - HOLDBANK arrives here some clocks after the host has written it. With HOLDBANK = 1, and in the
+//   clock in which it falls, the base is the one that the host keeps (mb4_instr_reg). So a swap by
+//   a frame that ended between the host's write and its arrival is undone and stays pending. If the
+//   host clears HOLDBANK and sets it again, the pending swap happens, even if the 0 never arrives.
 //
 // The base is the host's bank without the inversions of SWBANK.
 // Without TwoBanks there is only bank 0, which both sides use; SWBANK and HOLDBANK change nothing.
@@ -86,9 +86,11 @@ module mb4_bank_ctrl #(
   end
 
   assign pending_o   = TwoBanks && pending_q;
-  assign event_o     = {swap || made_q, pending_q && bank_i.run} & {2{TwoBanks}};
+  assign event_o.swapped = TwoBanks && (swap || made_q);
+  assign event_o.lost    = TwoBanks && pending_q && bank_i.run;
   assign base_o      = TwoBanks && base_q;
   assign newest_o    = TwoBanks && newest_q;
-  assign banks_o     = {host_q, host_q ^ !singlebank_i} & {2{TwoBanks}};
+  assign banks_o.host = TwoBanks && host_q;
+  assign banks_o.eng  = TwoBanks && (host_q ^ !singlebank_i);
 
 endmodule

@@ -16,7 +16,7 @@
 // Datasheet: pages 21..31, Tables 6..43.
 
 module mb4_cfg_regs #(
-  parameter logic [31:0] Features = mb4_page_regs_pkg::FEATURES_FULL
+  parameter logic [31:0] Features = mb4_pkg::FEATURES_FULL
 ) (
   input  logic       wr_clk_i,
   input  logic       rst_ni,
@@ -27,11 +27,11 @@ module mb4_cfg_regs #(
   output mb4_pkg::cfg_t cfg_o
 );
 
-  localparam bit CONTROL = Features[mb4_page_regs_pkg::CONTROL_LSB];
-  localparam bit MO      = Features[mb4_page_regs_pkg::MO_LSB];
-  localparam bit FORCE   = Features[mb4_page_regs_pkg::FORCE_LSB];
-  localparam logic [7:0] PRESENT = mb4_pkg::channels(Features[mb4_page_regs_pkg::TWO_LINES_LSB],
-                                                     Features[mb4_page_regs_pkg::SLAVES_LSB +: 4]);
+  localparam bit CONTROL = Features[mb4_pkg::CONTROL_LSB];
+  localparam bit MO      = Features[mb4_pkg::MO_LSB];
+  localparam bit FORCE   = Features[mb4_pkg::FORCE_LSB];
+  localparam logic [7:0] PRESENT = mb4_pkg::channels(Features[mb4_pkg::TWO_LINES_LSB],
+                                                     Features[mb4_pkg::SLAVES_LSB +: 4]);
 
   // Bits that the host can write.
   localparam logic [7:0] REGADR = mb4_regs_pkg::WMASK_REGADR & {8{CONTROL}};

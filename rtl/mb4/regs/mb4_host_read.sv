@@ -17,7 +17,7 @@
 // Datasheet: pages 21, 22, 34..36, Tables 6, 41, 42, 54..67.
 
 module mb4_host_read #(
-  parameter logic [31:0] Features = mb4_page_regs_pkg::FEATURES_FULL
+  parameter logic [31:0] Features = mb4_pkg::FEATURES_FULL
 ) (
   input  logic       rd_clk_i,
   input  logic       rst_ni,
@@ -44,15 +44,15 @@ module mb4_host_read #(
   input  logic [1:0] revision_sel_i
 );
 
-  localparam logic [7:0] PRESENT = mb4_pkg::channels(Features[mb4_page_regs_pkg::TWO_LINES_LSB],
-                                                     Features[mb4_page_regs_pkg::SLAVES_LSB +: 4]);
-  localparam bit CONTROL = Features[mb4_page_regs_pkg::CONTROL_LSB];
-  localparam logic [7:0] FEATURES = Features == mb4_page_regs_pkg::FEATURES_FULL
+  localparam logic [7:0] PRESENT = mb4_pkg::channels(Features[mb4_pkg::TWO_LINES_LSB],
+                                                     Features[mb4_pkg::SLAVES_LSB +: 4]);
+  localparam bit CONTROL = Features[mb4_pkg::CONTROL_LSB];
+  localparam logic [7:0] FEATURES = Features == mb4_pkg::FEATURES_FULL
                                         ? 8'h00 : {1'b1, Features[6:0]};
 
   // Bits of flags that may differ from those of pair: SVALID and CDS.
   localparam logic [7:0] BANKED = {PRESENT[3:0], PRESENT[7:4] |
-                                   {2'b00, Features[mb4_page_regs_pkg::TWO_LINES_LSB], 1'b1}};
+                                   {2'b00, Features[mb4_pkg::TWO_LINES_LSB], 1'b1}};
 
   localparam logic [2:0] TOP = mb4_regs_pkg::ADDR_REGADR[7:5];  // 0xE0 to 0xFF
 
@@ -80,8 +80,8 @@ module mb4_host_read #(
   assign rdata_sel_d = rd_addr[7:6] == mb4_regs_pkg::ADDR_RDATA[7:6] && CONTROL;
   assign reg_sel_d   = {rd_addr[0], !rd_addr[0]} &
                        {2{rd_addr[7:5] == TOP ||
-                          (Features != mb4_page_regs_pkg::FEATURES_FULL &&
-                           rd_addr[7:1] == mb4_page_regs_pkg::FEATURES_BYTE[7:1])}};
+                          (Features != mb4_pkg::FEATURES_FULL &&
+                           rd_addr[7:1] == mb4_pkg::ADDR_FEATURES[7:1])}};
 
   always_comb begin
     status0 = mb4_regs_pkg::RESET_STATUS0 & mb4_regs_pkg::CONST_STATUS0;
@@ -130,7 +130,7 @@ module mb4_host_read #(
         mb4_regs_pkg::ADDR_STATUS9:    pair[8*k +: 8] = mb4_regs_pkg::RESET_STATUS9;
         mb4_regs_pkg::ADDR_SWBANKFAIL:
           pair[8*k +: 8] = 8'(status_i.flags.swbank_fail) << mb4_regs_pkg::SWBANKFAIL_LSB;
-        {TOP, mb4_page_regs_pkg::FEATURES_BYTE[4:0]}:   // and 0xFF, which reads 0
+        {TOP, mb4_pkg::ADDR_FEATURES[4:0]}:   // and 0xFF, which reads 0
           pair[8*k +: 8] = FEATURES & {8{!rd_addr[7]}};
         default:                       pair[8*k +: 8] = cfg_data_i[8*k +: 8];
       endcase

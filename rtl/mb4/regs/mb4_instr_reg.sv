@@ -65,7 +65,8 @@ module mb4_instr_reg #(
     end
   end
 
-  assign instr_o   = {count_q, byte_q};
+  assign instr_o.count   = count_q;
+  assign instr_o.written = byte_q;
   assign pending_o = count_q != instr_i.ack;
   assign pending_control_o = pending_o &&
       (byte_q[mb4_regs_pkg::INSTR_LSB +: 3] == mb4_regs_pkg::INSTR_CONTROL ||

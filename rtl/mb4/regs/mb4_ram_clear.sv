@@ -21,6 +21,8 @@ module mb4_ram_clear (
     else if (!done_q) {done_q, addr_q} <= 7'(addr_q) + 7'd1;
   end
 
-  assign clear_o = {!done_q, addr_q, 8'h00};
+  assign clear_o.en   = !done_q;
+  assign clear_o.addr = addr_q;
+  assign clear_o.data = 8'h00;
 
 endmodule

@@ -6,31 +6,30 @@
 // addresses are kept, the newest first. An address includes the host's bank of SCDATA, so a switch
 // of the banks hides no byte and shows none of the other bank.
 //
-// The same memory reads back the registers without a reserved bit, and the configuration of the
-// data channel of a core with one (kept). It costs less than their share of a multiplexer.
-// written_q tells which of them have been written since the reset; the others read 0.
+// The same memory holds the registers of mb4_kept.
 //
 // Clock domains: host; writes in wr_clk_i, reads in rd_clk_i. These are one clock, or two strobes
 // of which one rests while the other has edges.
 // Latency: hit_o and data_o are valid after the edge with host_i.rd_en, until the next read.
 //
-// An entry ends when the core has taken its byte (enc_posted); the memory answers from then on.
-// Three things tell this at the read:
+// An entry ends when the core has taken its byte (enc_posted); the core's memory answers from then
+// on. Three things tell this at a read:
 //
-// - empty_i: all bytes have been taken,
-// - no byte waited at the last edge of wr_clk_i: only a byte written with that edge may wait,
-// - marked_i = mark_o: the bytes written before the last change of mark_o have been taken. mark_o
-//   changes with an edge of wr_clk_i, when marked_i has followed.
+// - empty_i: the core has taken all bytes.
+// - empty_i was 1 at the last edge of wr_clk_i. Then only the byte written with this edge can still
+//   be on its way.
+// - marked_i = mark_o: the core has taken all bytes written before the last change of mark_o.
+//   mark_o changes with an edge of wr_clk_i, after marked_i has followed its change before.
 //
-// Misuse: a read at the edge that writes the same byte is undefined. Older addresses read what the
-// memory holds. A byte that was written after the last change of mark_o, with less than 8 clocks of
-// the core between the writes, may answer until all bytes of this sequence of writes have been
-// taken.
+// Misuse: a read at the edge that writes the same byte is undefined. An address that is older than
+// the four reads what the core's memory holds. The host may write so fast that mark_o changes
+// seldom: with less than 8 clocks of the core between two writes, a byte written behind the last
+// change of mark_o may answer from here until the core has taken the last byte of this sequence.
 // Features tells which addresses the core has; no other one is kept.
 // Source: decisions 13, 36.
 
 module mb4_recent #(
-  parameter logic [31:0] Features = mb4_page_regs_pkg::FEATURES_FULL
+  parameter logic [31:0] Features = mb4_pkg::FEATURES_FULL
 ) (
   input  logic       wr_clk_i,
   input  logic       rst_ni,
@@ -45,21 +44,14 @@ module mb4_recent #(
   input  logic       marked_i     // follows mark_o when they have been taken
 );
 
-  localparam bit CONTROL = Features[mb4_page_regs_pkg::CONTROL_LSB];
-  localparam bit BANKS   = Features[mb4_page_regs_pkg::TWO_BANKS_LSB];
-  localparam logic [7:0] PRESENT = mb4_pkg::channels(Features[mb4_page_regs_pkg::TWO_LINES_LSB],
-                                                     Features[mb4_page_regs_pkg::SLAVES_LSB +: 4]);
+  localparam bit CONTROL = Features[mb4_pkg::CONTROL_LSB];
+  localparam bit BANKS   = Features[mb4_pkg::TWO_BANKS_LSB];
+  localparam logic [7:0] PRESENT = mb4_pkg::channels(Features[mb4_pkg::TWO_LINES_LSB],
+                                                     Features[mb4_pkg::SLAVES_LSB +: 4]);
   // Bits of a key that are not 0 in the keys of all addresses that the core has.
   localparam logic [7:0] VARIES = {CONTROL, BANKS, BANKS || CONTROL || PRESENT[7:4] != 4'h0,
                                    CONTROL || {PRESENT[7:6], PRESENT[3:2]} != 4'h0,
                                    CONTROL || (PRESENT & 8'hAA) != 8'h00, 3'b111};
-
-  localparam bit MO    = Features[mb4_page_regs_pkg::MO_LSB];
-  localparam bit FORCE = Features[mb4_page_regs_pkg::FORCE_LSB];
-  // Bits of a register that go with a feature that the core does not have are reserved (decision
-  // 44).
-  localparam logic [5:0] WHOLE = {CONTROL, 1'b1, 1'b1, MO, MO && PRESENT == 8'hFF, FORCE};
-  localparam int unsigned KEPT = PRESENT == 8'h01 ? 10 : 6;
 
   // With at most four data channels SCDATA needs no bit 5: the bank takes it, and bit 6 is 0.
   localparam bit SHORT = PRESENT[7:4] == 4'h0;
@@ -74,18 +66,8 @@ module mb4_recent #(
     key = VARIES & (SHORT ? {at[7], 1'b0, at[7] ? at[5] : at[6], at[4:0]} : at);
   endfunction
 
-  // One bit for each register that is read back here. The bit of the register at this address is
-  // set.
-  function automatic logic [KEPT-1:0] kept(input logic [7:0] addr);
-    kept = KEPT'({{3'b000, addr[7:2] == mb4_regs_pkg::ADDR_SLAVE_CFG[7:2]} << addr[1:0],
-                  WHOLE & {addr == mb4_regs_pkg::ADDR_REGADR, addr == mb4_regs_pkg::ADDR_FREQ,
-                           addr == mb4_regs_pkg::ADDR_FREQAGS, addr == mb4_regs_pkg::ADDR_MO_BUSY,
-                           addr == mb4_regs_pkg::ADDR_ACTNSENS, addr == mb4_regs_pkg::ADDR_IFACE}});
-  endfunction
-
   logic        wr_en;
-  logic [KEPT-1:0] reg_wr;         // the host writes a register that is kept here
-  logic [KEPT-1:0] written_q;      // those that have been written
+  logic        kept_wr;            // the host writes a register of mb4_kept
   logic [7:0]  wr_place, rd_place;
   logic [7:0]  wr_addr, rd_addr;   // their keys
   logic [31:0] addr_q;    // four addresses, the newest lowest
@@ -103,29 +85,31 @@ module mb4_recent #(
   logic [2:0]  wr_match;
   logic [3:0]  rd_match;  // without bit 0 of the address
   logic [3:0]  odd;
-  logic [1:0]  reg_hits;  // registers at the odd and at the even address
+  logic [1:0]  kept_hits; // registers at the odd and at the even address
   // At the odd and at the even address. Kept: synthesis does not know that bit 0 comes late.
   (* keep *) logic [1:0] hits;
   logic [3:0]  move;      // entry takes the address of its newer neighbour
 
   // Only addresses of SCDATA (bit 7 = 0) and RDATA have bit 6 = 0.
-  assign wr_en   = host_i.wr_en && mb4_pkg::in_memory(host_i.wr_addr[7:3], PRESENT, CONTROL);
+  assign wr_en    = host_i.wr_en && mb4_pkg::in_memory(host_i.wr_addr[7:3], PRESENT, CONTROL);
   assign wr_place = place(host_i.wr_addr, bank_i);
   assign rd_place = place(host_i.rd_addr, bank_i);
   assign wr_addr  = key(wr_place);
   assign rd_addr  = key(rd_place);
 
-  assign reg_wr   = kept(host_i.wr_addr) & {KEPT{host_i.wr_en}};
+  mb4_kept #(.Features(Features)) u_kept (
+    .wr_clk_i,
+    .rst_ni,
+    .host_i,
+    .wr_o   (kept_wr),
+    .hits_o (kept_hits)
+  );
 
   for (genvar i = 0; i < 3; i++) begin : gen_write
     assign wr_match[i] = valid_q[i] && addr_q[8*i +: 8] == wr_addr;
   end
 
   // Bit 0 of the address comes late over SPI, so it only chooses between two results.
-  for (genvar k = 0; k < 2; k++) begin : gen_register
-    assign reg_hits[k] = (kept({host_i.rd_addr[7:1], 1'(k)}) & written_q) != '0;
-  end
-
   for (genvar i = 0; i < 4; i++) begin : gen_read
     assign rd_match[i] = valid_q[i] && !drained[i] && !(old_q[i] && marked_i == mark_q) &&
                          addr_q[8*i + 1 +: 7] == rd_addr[7:1];
@@ -134,7 +118,7 @@ module mb4_recent #(
 
   assign hits = ({(rd_match & odd) != 4'b0000, (rd_match & ~odd) != 4'b0000} &
                 {2{mb4_pkg::in_memory(host_i.rd_addr[7:3], PRESENT, CONTROL) && !empty_i}}) |
-                reg_hits;
+                kept_hits;
 
   assign move = {wr_match == 3'b000, wr_match[1:0] == 2'b00, !wr_match[0], 1'b1} &
                 {4{wr_en}};
@@ -149,7 +133,6 @@ module mb4_recent #(
       addr_q   <= '0;
       valid_q  <= '0;
       old_q    <= '0;
-      written_q <= '0;
       mark_q   <= 1'b0;
       marked_q <= 1'b0;
       empty_q  <= 1'b0;
@@ -159,7 +142,6 @@ module mb4_recent #(
       fresh_q  <= wr_en;
       if (passed && valid != 4'b0000) mark_q <= !mark_q;
       marked_q <= marked_i;
-      written_q <= written_q | reg_wr;
       if (move[0]) addr_q[7:0]   <= wr_addr;
       if (move[1]) addr_q[15:8]  <= addr_q[7:0];
       if (move[2]) addr_q[23:16] <= addr_q[15:8];
@@ -171,7 +153,7 @@ module mb4_recent #(
 
   enc_ram #(.Width(8), .AddrW(8)) u_ram (
     .wr_clk_i,
-    .wr_en_i   (wr_en || reg_wr != '0),
+    .wr_en_i   (wr_en || kept_wr),
     .wr_addr_i (wr_place),
     .wr_data_i (host_i.wr_data),
     .rd_clk_i,

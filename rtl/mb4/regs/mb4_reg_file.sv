@@ -16,7 +16,7 @@
 module mb4_reg_file #(
   parameter bit Port2 = 1'b0,
   parameter bit Tap   = 1'b0,    // the second read port reads SCDATA1..4 too, for tap_o
-  parameter logic [31:0] Features = mb4_page_regs_pkg::FEATURES_FULL
+  parameter logic [31:0] Features = mb4_pkg::FEATURES_FULL
 ) (
   input  logic       clk_i,
   input  logic       rst_ni,          // host domain
@@ -61,14 +61,14 @@ module mb4_reg_file #(
   output mb4_pkg::reg_tap_t tap_o
 );
 
-  localparam bit TWO_LINES = Features[mb4_page_regs_pkg::TWO_LINES_LSB];
-  localparam bit TWO_BANKS = Features[mb4_page_regs_pkg::TWO_BANKS_LSB];
-  localparam bit CONTROL   = Features[mb4_page_regs_pkg::CONTROL_LSB];
+  localparam bit TWO_LINES = Features[mb4_pkg::TWO_LINES_LSB];
+  localparam bit TWO_BANKS = Features[mb4_pkg::TWO_BANKS_LSB];
+  localparam bit CONTROL   = Features[mb4_pkg::CONTROL_LSB];
   localparam logic [7:0] PRESENT =
-      mb4_pkg::channels(TWO_LINES, Features[mb4_page_regs_pkg::SLAVES_LSB +: 4]);
+      mb4_pkg::channels(TWO_LINES, Features[mb4_pkg::SLAVES_LSB +: 4]);
 
   mb4_pkg::mem_rd_t rd;
-  mb4_pkg::mem_wr_t clear;
+  mb4_pkg::mem_wr_t clear, rdata_post;
   mb4_pkg::banks_t  banks;           // core domain
   logic [15:0] cfg_data;
   logic [7:0]  slave_data;
@@ -76,7 +76,7 @@ module mb4_reg_file #(
   logic        instr_pending, control_pending;
   logic        post_wr;
   logic        post_valid, post_ready;
-  logic [15:0] post_data;
+  mb4_pkg::posted_t to_post, posted;
   logic        post_empty, mark, marked, recent_hit;
   logic [7:0]  recent_data;
   logic        post_rdata, ready_scd, ready_rdata, bank_pending;
@@ -87,9 +87,12 @@ module mb4_reg_file #(
   biss_pkg::line_data_t data1, data2;
   logic        unused;
 
-  assign {data2, data1} = data_i;
-  assign rd    = {host_i.rd_en, host_i.rd_addr[5:0]};
-  assign mem_o = {clear.en, bank_pending};
+  assign data1 = data_i[0 +: biss_pkg::LINE_DATA_W];
+  assign data2 = data_i[biss_pkg::LINE_DATA_W +: biss_pkg::LINE_DATA_W];
+  assign rd.en   = host_i.rd_en;
+  assign rd.addr = host_i.rd_addr[5:0];
+  assign mem_o.clears  = clear.en;
+  assign mem_o.pending = bank_pending;
 
   // ---- registers ----------------------------------------------------------------------------
 
@@ -102,7 +105,7 @@ module mb4_reg_file #(
   );
 
   mb4_slave_cfg #(
-    .Channels(PRESENT), .FreeCrc(Features[mb4_page_regs_pkg::FREE_CRC_LSB])
+    .Channels(PRESENT), .FreeCrc(Features[mb4_pkg::FREE_CRC_LSB])
   ) u_slave_cfg (
     .wr_clk_i,
     .rst_ni,
@@ -168,23 +171,26 @@ module mb4_reg_file #(
   // ---- memories -----------------------------------------------------------------------------
 
   // SCDATA, RDATA and SVALID are in the core domain; writes to them are posted. Only addresses of
-  // SCDATA and RDATA have bit 6 = 0. Bytes of SCDATA and SVALID carry the bank that the host has:
-  //   SCDATA 0, bank, address 5..0;   RDATA 1, 0, address 5..0;   SVALID 1, 1, bank, address 4..0
+  // SCDATA and RDATA have bit 6 = 0. Bytes of SCDATA and SVALID carry the bank that the host has.
   assign post_wr = host_i.wr_en && (mb4_pkg::in_memory(host_i.wr_addr[7:3], PRESENT, CONTROL) ||
                                     host_i.wr_addr == mb4_regs_pkg::ADDR_SVALID_LO ||
                                     host_i.wr_addr == mb4_regs_pkg::ADDR_SVALID_HI);
+
+  assign to_post.elsewhere = host_i.wr_addr[7];
+  assign to_post.select    = host_i.wr_addr[6] || (!host_i.wr_addr[7] && bank_seen);
+  assign to_post.addr      = {host_i.wr_addr[6] ? bank_seen : host_i.wr_addr[5],
+                              host_i.wr_addr[4:0]};
+  assign to_post.data      = host_i.wr_data;
 
   enc_posted #(.Width(16)) u_posted (
     .wr_clk_i,
     .wr_rst_ni (rst_ni),
     .wr_en_i   (post_wr),
-    .wr_data_i ({host_i.wr_addr[7], host_i.wr_addr[6] || (!host_i.wr_addr[7] && bank_seen),
-                 host_i.wr_addr[6] ? bank_seen : host_i.wr_addr[5], host_i.wr_addr[4:0],
-                 host_i.wr_data}),
+    .wr_data_i (to_post),
     .clk_i,
     .rst_ni    (rst_core_ni),
     .valid_o   (post_valid),
-    .data_o    (post_data),
+    .data_o    (posted),
     .ready_i   (post_ready),
     .busy_o    (post_busy_o),
     .empty_o   (post_empty),
@@ -207,7 +213,7 @@ module mb4_reg_file #(
     .marked_i  (marked)
   );
 
-  assign post_rdata = CONTROL && post_valid && post_data[15:14] == 2'b10;
+  assign post_rdata = CONTROL && post_valid && posted.elsewhere && !posted.select;
   assign post_ready = ready_scd && (ready_rdata || !post_rdata);
 
   mb4_ram_clear u_clear (
@@ -224,7 +230,7 @@ module mb4_reg_file #(
     .bank_i,
     .clear_i      (clear),
     .post_valid_i (post_valid),
-    .post_i       (post_data),
+    .post_i       (posted),
     .post_ready_o (ready_scd),
     .rd_clk_i,
     .rd_i         (rd),
@@ -241,13 +247,17 @@ module mb4_reg_file #(
     .mo_data_o
   );
 
+  assign rdata_post.en   = post_rdata;
+  assign rdata_post.addr = posted.addr;
+  assign rdata_post.data = posted.data;
+
   mb4_memory #(.Banks(1'b0)) u_rdata (
     .clk_i,
     .clear_i      (clear),
     .eng_wr_i     (rdata_i.wr),
     .eng_rd_i     (rdata_i.rd),
     .eng_data_o   (rdata_o),
-    .host_wr_i    ({post_rdata, post_data[13:0]}),
+    .host_wr_i    (rdata_post),
     .host_ready_o (ready_rdata),
     .rd_clk_i,
     .rd_i         (rd),
@@ -281,7 +291,12 @@ module mb4_reg_file #(
     .cds_o       (cds)
   );
 
-  assign tap_o = {post_empty, banks, svalid, cds, scd2_data, scd2_lo_data};
+  assign tap_o.empty  = post_empty;
+  assign tap_o.banks  = banks;
+  assign tap_o.svalid = svalid;
+  assign tap_o.cds    = cds;
+  assign tap_o.hi     = scd2_data;
+  assign tap_o.lo     = scd2_lo_data;
 
   // RDATA has no banks and no second read port.
   assign unused = ^{rdata_data[15:8], rdata2_data};

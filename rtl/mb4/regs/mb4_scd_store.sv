@@ -28,7 +28,7 @@
 module mb4_scd_store #(
   parameter bit Port2 = 1'b0,
   parameter bit Tap   = 1'b0,  // the second read port reads the lower half too
-  parameter logic [31:0] Features = mb4_page_regs_pkg::FEATURES_FULL
+  parameter logic [31:0] Features = mb4_pkg::FEATURES_FULL
 ) (
   input  logic       clk_i,
   input  logic       rst_ni,
@@ -36,9 +36,9 @@ module mb4_scd_store #(
   input  mb4_pkg::banks_t    banks_i,
   input  mb4_pkg::bank_cmd_t bank_i,
   input  mb4_pkg::mem_wr_t   clear_i,  // after reset
-  // host, posted into the core domain: {kind, bank, address, data} as in mb4_reg_file
+  // host, posted into the core domain
   input  logic       post_valid_i,
-  input  logic [15:0] post_i,
+  input  mb4_pkg::posted_t post_i,
   output logic       post_ready_o,    // also 1 if the byte is not for this module
   // host read port
   input  logic        rd_clk_i,
@@ -59,9 +59,9 @@ module mb4_scd_store #(
   output logic [1:0]  word_bad_o       // a word ends: its CRC is wrong, or it is split
 );
 
-  localparam bit TWO_LINES = Features[mb4_page_regs_pkg::TWO_LINES_LSB];
-  localparam bit TWO_BANKS = Features[mb4_page_regs_pkg::TWO_BANKS_LSB];
-  localparam logic [3:0] SLAVES  = Features[mb4_page_regs_pkg::SLAVES_LSB +: 4];
+  localparam bit TWO_LINES = Features[mb4_pkg::TWO_LINES_LSB];
+  localparam bit TWO_BANKS = Features[mb4_pkg::TWO_BANKS_LSB];
+  localparam logic [3:0] SLAVES  = Features[mb4_pkg::SLAVES_LSB +: 4];
   localparam logic [7:0] PRESENT = mb4_pkg::channels(TWO_LINES, SLAVES);
   localparam bit         UPPER   = PRESENT[7:4] != 4'h0;
 
@@ -81,26 +81,32 @@ module mb4_scd_store #(
   logic       mo_en;
   logic [7:0] lo_mo_data, hi_mo_data;
   logic [15:0] hi_data;
-  mb4_pkg::mem_rd_t rd, rd2;
+  mb4_pkg::mem_rd_t rd, rd2, lo_mo_rd, hi_mo_rd;
+  mb4_pkg::mem_wr_t lo_post, hi_post;
   logic [7:0] svalid_lo, svalid_hi;
 
-  assign post_lo        = post_valid_i && !post_i[15] && !post_i[13];
-  assign post_hi        = post_valid_i && !post_i[15] && post_i[13];
-  assign post_svalid_lo = post_valid_i && post_i[15:14] == 2'b11 && post_i[8];
-  assign post_svalid_hi = post_valid_i && post_i[15:14] == 2'b11 && post_i[9];
+  // SVALID1..4 is at an odd address, SVALID5..8 at the next one.
+  assign post_lo        = post_valid_i && !post_i.elsewhere && !post_i.addr[5];
+  assign post_hi        = post_valid_i && !post_i.elsewhere && post_i.addr[5];
+  assign post_svalid_lo = post_valid_i && post_i.elsewhere && post_i.select && post_i.addr[0];
+  assign post_svalid_hi = post_valid_i && post_i.elsewhere && post_i.select && post_i.addr[1];
   assign post_ready_o   = (ready_lo || !post_lo) && (ready_hi || !post_hi);
 
   for (genvar i = 0; i < 4; i++) begin : gen_keep
-    assign keep[i] = post_i[mb4_regs_pkg::SVALID_LSB + mb4_regs_pkg::SVALID_LSB_STEP * i];
+    assign keep[i] = post_i.data[mb4_regs_pkg::SVALID_LSB + mb4_regs_pkg::SVALID_LSB_STEP * i];
   end
 
   // A single bank is bank 0 of its memory.
-  assign post_bank = TWO_BANKS && post_i[14];
-  assign rd        = {rd_i.en, TWO_BANKS && rd_i.addr[5], rd_i.addr[4:0]};
-  assign rd2       = {rd2_i.en, TWO_BANKS && rd2_i.addr[5], rd2_i.addr[4:0]};
+  assign post_bank = TWO_BANKS && post_i.select;
+  assign rd.en     = rd_i.en;
+  assign rd.addr   = {TWO_BANKS && rd_i.addr[5], rd_i.addr[4:0]};
+  assign rd2.en    = rd2_i.en;
+  assign rd2.addr  = {TWO_BANKS && rd2_i.addr[5], rd2_i.addr[4:0]};
 
-  assign {data2, data1} = data_i;
-  assign {mo2, mo1}     = mo_read_i;
+  assign data1 = data_i[0 +: biss_pkg::LINE_DATA_W];
+  assign data2 = data_i[biss_pkg::LINE_DATA_W +: biss_pkg::LINE_DATA_W];
+  assign mo1 = mo_read_i[0 +: biss_pkg::MO_READ_W];
+  assign mo2 = mo_read_i[biss_pkg::MO_READ_W +: biss_pkg::MO_READ_W];
 
   // ---- words ----------------------------------------------------------------------------------
 
@@ -133,24 +139,33 @@ module mb4_scd_store #(
   assign hi_wr_d.data = data2.delay_en ? data2.delay
                                        : second ? data2.rx.wr_data : data1.rx.wr_data;
 
-  assign lo_flag_d = {data1.rx.slave[1:0], data1.rx.first && !data1.rx.slave[2],
-                      data1.rx.done && !data1.rx.slave[2], ok[0],
-                      split[0] && !data1.rx.slave[2]};
-  assign hi_flag_d = {hi_slave[1:0], hi_first && hi_slave[2], hi_done && hi_slave[2], hi_ok,
-                      hi_split && hi_slave[2]};
+  assign lo_flag_d.slave  = data1.rx.slave[1:0];
+  assign lo_flag_d.begins = data1.rx.first && !data1.rx.slave[2];
+  assign lo_flag_d.done   = data1.rx.done && !data1.rx.slave[2];
+  assign lo_flag_d.ok     = ok[0];
+  assign lo_flag_d.split  = split[0] && !data1.rx.slave[2];
+  assign hi_flag_d.slave  = hi_slave[1:0];
+  assign hi_flag_d.begins = hi_first && hi_slave[2];
+  assign hi_flag_d.done   = hi_done && hi_slave[2];
+  assign hi_flag_d.ok     = hi_ok;
+  assign hi_flag_d.split  = hi_split && hi_slave[2];
 
   // A byte of a line comes late in its clock, and the host's byte waits for it. So the memories and
   // SVALID get what the lines bring one clock later, with the bank of its own clock. The end of a
   // frame switches the banks after that.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      {hi_wr_q, lo_wr_q}     <= '0;
-      {hi_flag_q, lo_flag_q} <= '0;
-      flag_bank_q            <= 1'b0;
+      lo_wr_q     <= '0;
+      hi_wr_q     <= '0;
+      lo_flag_q   <= '0;
+      hi_flag_q   <= '0;
+      flag_bank_q <= 1'b0;
     end else begin
-      {hi_wr_q, lo_wr_q}     <= {hi_wr_d, lo_wr_d};
-      {hi_flag_q, lo_flag_q} <= {hi_flag_d, lo_flag_d};
-      flag_bank_q            <= banks_i.eng;
+      lo_wr_q     <= lo_wr_d;
+      hi_wr_q     <= hi_wr_d;
+      lo_flag_q   <= lo_flag_d;
+      hi_flag_q   <= hi_flag_d;
+      flag_bank_q <= banks_i.eng;
     end
   end
 
@@ -160,13 +175,24 @@ module mb4_scd_store #(
   assign mo_en     = mo1.rd_en || mo2.rd_en;
   assign mo_data_o = {hi_mo_data, mo1.slave[2] ? hi_mo_data : lo_mo_data};
 
+  assign lo_mo_rd.en   = mo_en;
+  assign lo_mo_rd.addr = {banks_i.eng, mo1.slave[1:0], mo1.place};
+  assign hi_mo_rd.en   = mo_en;
+  assign hi_mo_rd.addr = {banks_i.eng, hi_mo.slave[1:0], hi_mo.place};
+  assign lo_post.en    = post_lo;
+  assign lo_post.addr  = {post_bank, post_i.addr[4:0]};
+  assign lo_post.data  = post_i.data;
+  assign hi_post.en    = post_hi;
+  assign hi_post.addr  = {post_bank, post_i.addr[4:0]};
+  assign hi_post.data  = post_i.data;
+
   mb4_memory #(.Banks(TWO_BANKS), .Port2(Tap)) u_scd_lo (
     .clk_i,
     .clear_i,
     .eng_wr_i     (lo_wr_q),
-    .eng_rd_i     ({mo_en, banks_i.eng, mo1.slave[1:0], mo1.place}),
+    .eng_rd_i     (lo_mo_rd),
     .eng_data_o   (lo_mo_data),
-    .host_wr_i    ({post_lo, post_bank, post_i[12:0]}),
+    .host_wr_i    (lo_post),
     .host_ready_o (ready_lo),
     .rd_clk_i,
     .rd_i         (rd),
@@ -180,9 +206,9 @@ module mb4_scd_store #(
     .clk_i,
     .clear_i,
     .eng_wr_i     (hi_wr_q),
-    .eng_rd_i     ({mo_en, banks_i.eng, hi_mo.slave[1:0], hi_mo.place}),
+    .eng_rd_i     (hi_mo_rd),
     .eng_data_o   (hi_mo_data),
-    .host_wr_i    ({post_hi, post_bank, post_i[12:0]}),
+    .host_wr_i    (hi_post),
     .host_ready_o (ready_hi),
     .rd_clk_i,
     .rd_i         (rd),

@@ -12,6 +12,7 @@
 #endif
 
 #include "sim/masters/axi/axi_makers.hpp"
+#include "sim/model/whole_models.hpp"
 
 // Some packages of Verilator leave this number empty. The headers hold what 5.006 writes.
 #if VERILATOR_VERSION_INTEGER + 0 == 5006000
@@ -46,6 +47,7 @@ struct Edge1 {
 using Steps1 = PartSteps<Vaxi_1, Edge1>;
 #else
 using Steps1 = WholeSteps<Vaxi_1>;
+const WholeModel kAxi1IsWhole("biss_axi with one channel");
 #endif
 #if !MB4SIM_ONE_MODEL
 #ifdef MB4_AXI_4_IN_PARTS
@@ -62,6 +64,7 @@ struct Edge4 {
 using Steps4 = PartSteps<Vaxi_4, Edge4>;
 #else
 using Steps4 = WholeSteps<Vaxi_4>;
+const WholeModel kAxi4IsWhole("biss_axi with four channels");
 #endif
 #endif
 

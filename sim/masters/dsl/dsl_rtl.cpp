@@ -20,6 +20,7 @@
 #endif
 
 #include "sim/masters/dsl/verilated_dsl.hpp"
+#include "sim/model/whole_models.hpp"
 
 namespace mb4::sim {
 namespace {
@@ -55,6 +56,7 @@ class DslSteps {
 };
 #else
 bool know_edges(Vdsl& /*model*/) { return false; }
+const WholeModel kDslIsWhole("dsl_axil");
 
 class DslSteps {
  public:

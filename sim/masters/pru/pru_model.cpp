@@ -31,6 +31,7 @@
 #include "sim/masters/pru/pru_master.hpp"
 #include "sim/masters/pru/verilated_pru.hpp"
 #include "sim/model/page_time.hpp"
+#include "sim/model/whole_models.hpp"
 
 namespace mb4::sim {
 namespace {
@@ -121,6 +122,7 @@ struct InsidePru {
   using Steps##mhz = PartSteps<Vpru_##mhz, Edge##mhz>
 #else
 #define MB4_PRU_STEPS(mhz) using Steps##mhz = WholeSteps<Vpru_##mhz>
+const WholeModel kPruIsWhole("biss_pru");
 #endif
 MB4_PRU_STEPS(200);
 #if !MB4SIM_ONE_MODEL

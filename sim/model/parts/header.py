@@ -63,8 +63,8 @@ class Writer:
         self.types, self.widths, self.tables = types, widths, tables
         self.events, self.lists, self.flags = events, lists, flags
         # {name: {number or None: parts that must run when it changes}}, for changes by an edge of
-        # the clock and by a host pin. host() leaves nothing to compute that has no clock. But the
-        # other values of a key are not computed there.
+        # the clock and by a host pin. host() itself computes all parts without a clock, of a part
+        # with a key only the value that the key has now: the others stay marked.
         self.by_clock, self.by_host = (defaultdict(lambda: defaultdict(set)) for _ in range(2))
         self.readers = self.by_clock
         self.always = [part for part in lists["events"] if part.always]

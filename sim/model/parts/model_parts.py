@@ -25,10 +25,10 @@ that writes one runs always. Other groups are put into bundles of two kinds:
 
 * One flag controls the bundle. The flag is set when a variable that the bundle reads changes.
 * If the bundle reads fast variables of a few bits, these are its key, and each value of the key has
-  a flag. All flags are set when any other variable that the bundle reads changes. If the bundle
-  computes a different result, the flags of the other values of the key are set, and the flag of
-  this value too if the bundle reads this result. So while a flag is not set, the bundle would
-  compute the present result with that value of the key.
+  a flag. A flag that is not set means: with this value of the key the bundle would compute what it
+  shows now. So all flags are set when another variable that the bundle reads changes. When a run of
+  the bundle changes its result, the flags of the other values of the key are set, and the flag of
+  the present value too if the bundle reads its own result.
 
 If a variable is only compared with numbers, it counts as changed when the result of a comparison
 changes.

@@ -16,6 +16,7 @@
 #include "mb4sim/simulator.hpp"
 #include "sim/masters/axi/live_axi.hpp"
 #include "sim/scenario/scenario.hpp"
+#include "tests/support/wave.hpp"
 
 namespace mb4test {
 
@@ -53,7 +54,7 @@ class AxiBench {
   static constexpr unsigned kTimeoutLimit = 4000;  // parameter TIMEOUT_LIMIT, clocks
 
   explicit AxiBench(const std::string& scenario)
-      : simulator(sim::parse_scenario(scenario, "test.toml")),
+      : simulator(sim::parse_scenario(scenario, "test.toml"), mb4test::with_wave()),
         host(simulator.host<sim::AxiHost>("axi")),
         period(sim::kPsPerSecond / simulator.scenario().chip.f_clk_hz) {
     simulator.advance(kTimeoutLimit * period);  // a reset holds starts back

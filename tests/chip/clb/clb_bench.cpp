@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/chip/clb/clb_bench.hpp"
 
+#include "tests/support/wave.hpp"
+
 namespace mb4test {
 namespace {
 
@@ -10,7 +12,8 @@ ClbBench* bench_now = nullptr;
 }  // namespace
 
 ClbBench::ClbBench(const std::string& scenario, const sim::SimulatorOptions& options)
-    : simulator(sim::parse_scenario(scenario, "test.toml"), options), host(*simulator.word_bus()) {
+    : simulator(sim::parse_scenario(scenario, "test.toml"), mb4test::with_wave(options)),
+      host(*simulator.word_bus()) {
   EXPECT_EQ(bench_now, nullptr) << "one master a program";
   bench_now = this;
 }

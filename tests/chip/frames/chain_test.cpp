@@ -14,6 +14,7 @@
 #include "sim/lines/clocked/clocked_line.hpp"
 #include "tests/support/bits.hpp"
 #include "tests/support/chip_fixture.hpp"
+#include "tests/support/wave.hpp"
 
 namespace {
 
@@ -65,7 +66,7 @@ std::uint64_t word_of(const sim::BissCSlaveConfig& config, std::uint64_t frame, 
 class ChainBench {
  public:
   explicit ChainBench(const sim::Scenario& scenario)
-      : simulator(mb4test::with_test_host(scenario)), scenario_(scenario) {
+      : simulator(mb4test::with_test_host(scenario), mb4test::with_wave()), scenario_(scenario) {
     const bool two = scenario.channel(2) != nullptr;
     for (const sim::ChannelConfig& channel : scenario.channels) {
       unsigned x = channel.number == 1 ? 0 : 4;

@@ -13,6 +13,7 @@
 #include "mb4sim/simulator.hpp"
 #include "sim/hosts/parallel_host.hpp"
 #include "sim/scenario/scenario.hpp"
+#include "tests/support/wave.hpp"
 
 namespace mb4test {
 
@@ -25,10 +26,12 @@ inline constexpr unsigned kPhases = 50;
 class FastHost {
  public:
   FastHost(const std::string& interface, double clk_mhz, const std::string& rest = "")
-      : simulator_(sim::parse_scenario(
-            "[chip]\nf_clk_hz = " + std::to_string(static_cast<unsigned>(clk_mhz * 1e6)) +
-                "\n[host]\ninterface = \"" + interface + "\"\nsclk_hz = 50_000_000\n" + rest,
-            "test.toml")),
+      : simulator_(
+            sim::parse_scenario(
+                "[chip]\nf_clk_hz = " + std::to_string(static_cast<unsigned>(clk_mhz * 1e6)) +
+                    "\n[host]\ninterface = \"" + interface + "\"\nsclk_hz = 50_000_000\n" + rest,
+                "test.toml"),
+            mb4test::with_wave()),
         spi_(interface == "spi") {
     if (!spi_) simulator_.bus().set_timing({});
   }

@@ -16,6 +16,7 @@
 #include "pru_regs.hpp"
 #include "sim/hosts/word_host.hpp"
 #include "sim/scenario/scenario.hpp"
+#include "tests/support/wave.hpp"
 
 namespace mb4test {
 
@@ -64,7 +65,7 @@ inline constexpr std::uint32_t kPruNoSlave = 1U << 5U;
 class PruSim {
  public:
   explicit PruSim(const std::string& scenario, const sim::SimulatorOptions& options = {})
-      : simulator(sim::parse_scenario(scenario, "test.toml"), options),
+      : simulator(sim::parse_scenario(scenario, "test.toml"), mb4test::with_wave(options)),
         host(*simulator.word_bus()),
         irq_(*simulator.pin_by_name("irq_o")),
         ma_(*simulator.pin_by_name("ma_o")) {}

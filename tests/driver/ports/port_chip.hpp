@@ -16,6 +16,7 @@
 
 #include "tests/driver/rtl/rtl_calls.hpp"
 #include "tests/support/chip_fixture.hpp"
+#include "tests/support/wave.hpp"
 
 namespace mb4test {
 
@@ -46,7 +47,7 @@ inline std::vector<std::uint8_t> exchange(const std::uint8_t* tx, std::size_t si
 // The encoder sends the position 0x2ABCDEF.
 class PortChip : public testing::Test {
  protected:
-  PortChip() : simulator(mb4::sim::parse_scenario(kEncoder, "test.toml")) {
+  PortChip() : simulator(mb4::sim::parse_scenario(kEncoder, "test.toml"), mb4test::with_wave()) {
     chip = &simulator;
     fails = false;
     forget_rates();

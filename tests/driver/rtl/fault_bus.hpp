@@ -17,6 +17,7 @@
 #include "mb4sim/simulator.hpp"
 #include "sim/scenario/scenario.hpp"
 #include "tests/support/test_host.hpp"
+#include "tests/support/wave.hpp"
 
 namespace mb4test {
 
@@ -120,7 +121,8 @@ inline constexpr std::size_t kForEver = std::numeric_limits<std::size_t>::max();
 // A chip whose bus can fail, on the host interface that MB4_HOST names.
 struct FaultyChip {
   explicit FaultyChip(const std::string& scenario)
-      : simulator(mb4test::with_test_host(mb4::sim::parse_scenario(scenario, "test.toml"))),
+      : simulator(mb4test::with_test_host(mb4::sim::parse_scenario(scenario, "test.toml")),
+                  mb4test::with_wave()),
         bus(simulator),
         clock(simulator),
         device(bus, clock) {}

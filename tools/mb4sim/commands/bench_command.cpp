@@ -15,6 +15,7 @@
 #include "commands/commands.hpp"
 #include "report/exit_status.hpp"
 #include "report/messages.hpp"
+#include "sim/model/whole_models.hpp"
 #include "workload.hpp"
 
 namespace mb4::tool {
@@ -139,6 +140,9 @@ int bench_command(const BenchOptions& options) {
   } else {
     fmt::print("machine   {}\ncompiler  {}, flags {}\nmodel     {}\n", machine, build::kCompiler,
                build::kFlags, build::kVerilator);
+    for (const std::string_view name : sim::whole_models()) {
+      fmt::print("note      {} runs whole, at a third of its speed or less\n", name);
+    }
     fmt::print("clk/s     system clocks simulated in a second of processor time on one core, ");
     fmt::print("median of {}, each {} ms or more\n\n", options.repeats, options.milliseconds);
     fmt::print(kBenchRow, "", "workload", "clk/s", "range, M", "ns/clk", "real time");

@@ -6,7 +6,7 @@
 // Pins and clocks: icebreaker.pcf.
 
 module icebreaker #(
-  parameter logic [31:0] Features = mb4_page_regs_pkg::FEATURES_FULL
+  parameter logic [31:0] Features = mb4_pkg::FEATURES_FULL
 ) (
   input  logic clk_i,      // 12 MHz
   input  logic button_ni,  // NRES

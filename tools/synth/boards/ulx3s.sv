@@ -5,7 +5,7 @@
 // clock: MA up to 12.5 MHz. Pins and clocks: ulx3s.lpf.
 
 module ulx3s #(
-  parameter logic [31:0] Features = mb4_page_regs_pkg::FEATURES_FULL
+  parameter logic [31:0] Features = mb4_pkg::FEATURES_FULL
 ) (
   input  logic clk_i,      // 25 MHz
   input  logic button_ni,  // NRES: button PWR

@@ -33,7 +33,7 @@ struct Procedures {
     kRestarted,  // an access: BREAK has stopped automatic frames, and they run again
     kStart,      // the first frames of the operation's own
     kPoll,       // read the status until what was started has ended
-    kPollAgain,  // an access: is the end true?
+    kPollAgain,  // an access: a second read of the status must say "ended" too
     kLines,      // read the lines until SL is 1
     kFill,       // an access: RDATA or IDS; an actuator: its word; all registers
     kCompare,    // an access: RDATA or IDS is read back

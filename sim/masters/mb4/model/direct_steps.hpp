@@ -98,7 +98,8 @@ class DirectSteps {
     before_.ignore(root, root.*kPre);
     before_.ignore(root, root.*kStep);
     if (!before_.same(root)) return false;
-    // After a change of the rate the count may be past its new end; then it runs to its very end.
+    // The host may have made the rate faster while the count was past the new last step. Such a
+    // count goes on to the highest number that its flops hold; no clock of it is left out.
     return !counting_ || (root.*kPre < step_clocks(root) && root.*kStep <= last_step(root));
   }
   std::uint64_t rest_left(const Vmb4_chip& model) const {

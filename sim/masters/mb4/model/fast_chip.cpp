@@ -14,6 +14,7 @@
 #ifndef MODEL_RUNS_WHOLE
 #define MB4_DIRECT_STEPS
 #include "direct_steps.hpp"
+#include "sim/model/whole_models.hpp"
 #endif
 #endif
 
@@ -24,6 +25,7 @@ namespace {
 using Steps = DirectSteps;
 #else
 using Steps = PlainSteps<Vmb4_chip>;
+const WholeModel kChipIsWhole("iC-MB4");
 #endif
 
 }  // namespace

@@ -12,15 +12,20 @@
 #include <optional>
 
 #include "Vmb4_page.h"
+#include "places.hpp"
 #include "tests/support/model_context.hpp"
 
 namespace {
 
-// Places in mb4_pkg::tap_t.
-constexpr unsigned kSwbankFail = 0, kRegend = 1, kGood = 2, kLost = 6, kFrameEnd = 7, kSlave = 8,
-                   kDone = 14, kWr = 16, kMa = 18, kStop = 20, kStart = 21, kSsi = 23,
-                   kSlaveloc5 = 25, kReady = 26, kLo = 27, kHi = 43, kCds = 59, kSvalid = 63,
-                   kEng = 79, kHost = 80;
+namespace tap = mb4test::places::mb4_pkg::tap_t;
+constexpr unsigned kSwbankFail = tap::kSwbankFail.lsb, kRegend = tap::kRegend.lsb,
+                   kGood = tap::kGood.lsb, kLost = tap::kLost.lsb, kFrameEnd = tap::kFrameEnd.lsb,
+                   kSlave = tap::kSlave.lsb, kDone = tap::kDone.lsb, kWr = tap::kWr.lsb,
+                   kMa = tap::kMa.lsb, kStop = tap::kStop.lsb, kStart = tap::kStart.lsb,
+                   kSsi = tap::kSsi.lsb, kSlaveloc5 = tap::kSlaveloc5.lsb, kReady = tap::kReady.lsb,
+                   kLo = tap::kRegsLo.lsb, kHi = tap::kRegsHi.lsb, kCds = tap::kRegsCds.lsb,
+                   kSvalid = tap::kRegsSvalid.lsb, kEng = tap::kRegsBanksEng.lsb,
+                   kHost = tap::kRegsBanksHost.lsb;
 constexpr unsigned kTimeRows = 6;
 constexpr std::array<unsigned, 2> kFirstChannel{0, 4};  // of a line, with SLAVELOC5
 
