@@ -182,6 +182,7 @@ void Link::restart(Restart reason) {
   frame_.linked = false;
   frame_.lost = true;
   frame_.safe1.valid = frame_.safe2.valid = false;
+  frame_.safe1.age = frame_.safe2.age = std::nullopt;
   frame_.restart = reason;
 }
 

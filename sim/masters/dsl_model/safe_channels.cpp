@@ -42,6 +42,9 @@ bool SafeChannels::frame(unsigned place, const Word& vertical, const Word& secon
   events.safe2_error = take(bytes2_, secondary, kMarker2);
   if (firmware_ && place == 0 && (bytes2_.bytes[0] & status2::kTest) != 0)
     events.safe2_error = true;
+  for (SafeChannel* safe : {&safe1_, &safe2_}) {
+    if (safe->age) ++*safe->age;
+  }
   if (place + 1 != kFrames) return false;
 
   const auto judge_channel = [](const Bytes& channel, SafeChannel& safe) {
@@ -51,6 +54,7 @@ bool SafeChannels::frame(unsigned place, const Word& vertical, const Word& secon
     safe.marked = channel.marked;
     safe.valid = !safe.error && !channel.marked;
     if (!safe.valid) return crc;
+    safe.age = 0;
     safe.position = position_in(channel.bytes);
     safe.crc = crc_in(channel.bytes);
     safe.summary = channel.bytes[0];

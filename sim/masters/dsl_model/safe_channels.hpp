@@ -32,6 +32,8 @@ struct SafeChannel {
   bool valid = false;        // the last vertical frame was good
   bool error = false;        // its code or its CRC was wrong
   bool marked = false;       // the encoder said in it that it has no position
+  // Frames since the last good vertical frame; nothing: none in this link, or no link.
+  std::optional<std::uint32_t> age{};
 };
 
 // The bits of a safe position above its width are as its sign, or without a sign 0.

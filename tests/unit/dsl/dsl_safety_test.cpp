@@ -205,6 +205,32 @@ TEST(DslSafety, Tolerance_IsADistance) {
   EXPECT_TRUE(positions_agree(1, 16, 5, {}));  // not compared
 }
 
+// Each channel has an age of its own, which goes on while no good vertical frame comes.
+TEST(DslSafety, Age_CountsFramesSinceTheLastGoodOne) {
+  Bench bench(turning_motor());
+  bench.on_frame = [](const LinkFrame& frame) {
+    if (frame.number < kVertical) {
+      EXPECT_FALSE(frame.safe1.age.has_value());
+    }
+  };
+  run_to_begin(bench);
+  bench.on_frame = nullptr;
+  EXPECT_EQ(bench.link().frame().safe1.age, 0U);
+  bench.encoder().set_fault(slave_fault::kWrongCrc2, true);
+  for (unsigned frame = 1; frame <= 5 * kVertical; ++frame) {
+    if (frame == 2 * kVertical + 1) bench.encoder().set_fault(slave_fault::kWrongCrc2, false);
+    ASSERT_TRUE(bench.run_frames(1));
+    EXPECT_EQ(bench.link().frame().safe1.age, frame % kVertical) << frame;
+    const unsigned second = frame < 3 * kVertical ? frame : frame % kVertical;
+    EXPECT_EQ(bench.link().frame().safe2.age, second) << frame;
+  }
+  bench.encoder().set_fault(slave_fault::kSilent, true);
+  bench.line().slave_changed(bench.now());
+  bench.run_until(bench.now() + 100 * dsl_test::kFrameTime);
+  EXPECT_FALSE(bench.link().frame().safe1.age.has_value());
+  EXPECT_FALSE(bench.link().frame().safe2.age.has_value());
+}
+
 // One bad vertical frame is no fault of the toggle bit of the next one.
 TEST(DslSafety, LostVerticalFrame_DoesNotTripTheToggleBit) {
   for (const unsigned frames : {1U, 2U, 3U}) {
