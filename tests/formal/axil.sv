@@ -15,8 +15,8 @@
 // unbounded: reachability
 // look: dut_rest = u_dut.rest
 // look: dut_done = u_dut.done
-// mutation: common/enc_axil.sv | if (rest) write_q <= write && !(read && write_q);
-//   | if (rest) write_q <= write;
+// mutation: common/enc_axil.sv | rest ? write && !(read && write_q) : write_q;
+//   | rest ? write : write_q;
 // mutation: common/enc_axil.sv | rest ? write || read : word_req_o && !word_ready_i;
 //   | rest ? write || read : word_req_o;
 // mutation: common/enc_axil.sv | busy_q || awready_q || arready_q || bvalid_q || rvalid_q

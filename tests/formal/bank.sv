@@ -27,8 +27,8 @@
 // mutation: mb4/regs/mb4_bank_ctrl.sv | newest_q  <= base_d ^ pending_d; | newest_q  <= base_d;
 // mutation: mb4/regs/mb4_bank_ctrl.sv | host_q ^ !singlebank_i | host_q ^ !holdbank_i
 // mutation: mb4/regs/mb4_bank_ctrl.sv | (pending_q && !bank_i.run) | pending_q
-// mutation: mb4/regs/mb4_bank_ctrl.sv | made_q, pending_q && bank_i.run} &
-//   | made_q, pending_q && holdbank_i && bank_i.run} &
+// mutation: mb4/regs/mb4_bank_ctrl.sv | TwoBanks && pending_q && bank_i.run;
+//   | TwoBanks && pending_q && holdbank_i && bank_i.run;
 
 module proof (
   input logic clk_i,

@@ -10,8 +10,8 @@
 // cover: 10
 // unbounded: reachability
 // mutation: mb4/ctrl/mb4_status_flags.sv | (quiet_q == 2'b11) && !frame_i.busy | quiet_q == 2'b11
-// mutation: mb4/ctrl/mb4_sequencer.sv | assign busy = runs ||
-//   | assign busy = (runs && state_d == INIT) ||
+// mutation: mb4/ctrl/mb4_sequencer.sv | assign flags_o.busy      = runs ||
+//   | assign flags_o.busy      = (runs && state_d == INIT) ||
 // mutation: mb4/ctrl/mb4_status_flags.sv | eot_q        <= 1'b1; | eot_q        <= 1'b0;
 
 module proof (

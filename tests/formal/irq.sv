@@ -15,8 +15,8 @@
 // look: dut_held = u_dut.held_q
 // look: dut_req = u_dut.req_q
 // look: dut_ack = u_dut.ack_q
-// mutation: common/enc_irq.sv | assign left = wait_q & {5{!send}}; | assign left = 5'd0;
-// mutation: common/enc_irq.sv | assign send = req_q == ack && wait_q != 5'd0; | assign send = wait_q != 5'd0;
+// mutation: common/enc_irq.sv | wait_q & {5{!send}}; | 5'd0;
+// mutation: common/enc_irq.sv | req_q == ack && wait_q != 5'd0; | wait_q != 5'd0;
 // mutation: common/enc_irq.sv | {kept[0] && set[0], 4'd0}; | 5'd0;
 // mutation: common/enc_irq.sv | data_i & {5{status_we_i}} | data_i
 // mutation: common/enc_irq.sv | (status_q & enable_q) != 5'd0; | status_q != 5'd0;

@@ -31,15 +31,14 @@
 // look: dut_mem1 = u_dut.u_ram.mem[1]
 // look: dut_mem2 = u_dut.u_ram.mem[2]
 // look: dut_mem3 = u_dut.u_ram.mem[3]
-// mutation: common/enc_posted.sv | (!valid_q || ready_i); | 1'b1;
+// mutation: common/enc_posted.sv | wr_sync != rd_gray && free; | wr_sync != rd_gray;
 // mutation: common/enc_posted.sv | wr_gray_q <= wr_d ^ {1'b0, wr_d[AddrW:1]};
 //   | wr_gray_q <= wr_q ^ {1'b0, wr_d[AddrW:1]};
-// mutation: common/enc_posted.sv | if (fetch) rd_q <= | if (valid_q) rd_q <=
-// mutation: common/enc_posted.sv | if (!valid_q || ready_i) taken_q <= rd_gray;
-//   | taken_q <= rd_gray;
-// mutation: common/enc_posted.sv | mark_q  <= mark; | mark_q  <= mark_i;
-// mutation: common/enc_posted.sv | target_q <= wr_sync; | target_q <= rd_gray;
-// mutation: common/enc_posted.sv | if (taken_q == target_q) marked_q | marked_q
+// mutation: common/enc_posted.sv | (AddrW+1)'(fetch); | (AddrW+1)'(valid_q);
+// mutation: common/enc_posted.sv | free ? rd_gray : taken_q; | rd_gray;
+// mutation: common/enc_posted.sv | mark_q   <= mark; | mark_q   <= mark_i;
+// mutation: common/enc_posted.sv | ? wr_sync : target_q; | ? rd_gray : target_q;
+// mutation: common/enc_posted.sv | (seek_q && taken_q == target_q) ? mark_q | seek_q ? mark_q
 // mutation: common/enc_posted.sv | empty_o = wr_gray_q == taken_q; | empty_o = wr_sync == taken_q;
 
 module proof (

@@ -12,7 +12,7 @@
 // unbounded: induction 5
 // checks: those of the bench alone, because a check that a state breaks would leave this state out of
 //   what holds from any state; the block's own are in eot
-// keep: mb4/ctrl/mb4_sequencer.sv | {cut_q, wait_q} <= '1; | {cut_q, wait_q} <= {1'b0, WAIT};
+// keep: mb4/ctrl/mb4_sequencer.sv | cut_q      <= 1'b1; | cut_q      <= 1'b0;
 // look: dut_state = u_dut.state_q
 // look: dut_wait = u_dut.wait_q
 // look: dut_sync0 = u_dut.u_written.gen_bit[0].u_sync.sync_q
