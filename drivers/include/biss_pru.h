@@ -307,6 +307,45 @@ static inline void biss_pru_stop(biss_pru_master *pru) {
   pru->access = BISS_PRU_IDLE;
 }
 
+/* Clocks of a microsecond: 200 or 80. 0: no master that these calls know. */
+static inline uint32_t biss_pru_clk_per_us(const biss_pru_master *pru) {
+  uint32_t features = 0;
+  if (biss_pru_get(pru, PRU_ADDR_ID) != PRU_RESET_ID) {
+    return 0;
+  }
+  features = biss_pru_get(pru, PRU_ADDR_FEATURES);
+  if ((features & PRU_SUCCESSOR_MASK) != 0) {
+    return 0;
+  }
+  return (features & PRU_CLOCK_80_MASK) != 0 ? 80U : 200U;
+}
+
+/* What the calls need of the configuration. `longest_us`: biss_pru_longest_us(). */
+static inline void biss_pru_take_config(biss_pru_master *pru, const biss_pru_config *config,
+                                        uint32_t clk_per_us, uint32_t longest_us) {
+  const uint32_t period_us = config->period_us + config->period_clk / clk_per_us;
+  pru->interrupt = config->interrupt;
+  pru->lengths = (uint32_t)config->crc_err_war << PRU_CRC_ERR_WAR_SHIFT | config->position_bits;
+  pru->limit_us =
+      config->frame_limit_us != 0
+          ? config->frame_limit_us
+          : 2U * (period_us > longest_us ? period_us : longest_us) + (uint32_t)BISS_PRU_MARGIN_US;
+}
+
+/* The registers of the stopped master. */
+static inline void biss_pru_write_config(const biss_pru_master *pru, const biss_pru_config *config,
+                                         uint32_t clk_per_us, uint32_t overhead_us) {
+  uint32_t enables = 0;
+  biss_pru_put(pru, PRU_ADDR_LENGTHS, biss_pru_at_mhz(pru, config->mhz));
+  biss_pru_put(pru, PRU_ADDR_TRIGGER_PERIOD, config->period_us * clk_per_us + config->period_clk);
+  biss_pru_put(pru, PRU_ADDR_OVERHEAD, overhead_us * clk_per_us);
+  biss_pru_put(pru, PRU_ADDR_PROC_TIME_MAX, config->proc_time_max);
+  biss_pru_put(pru, PRU_ADDR_IRQ_STATUS, PRU_WMASK_IRQ_STATUS);
+  enables = biss_pru_get(pru, PRU_ADDR_IRQ_ENABLE) & (uint32_t)~PRU_FRAME_ENDED_ENABLE_MASK;
+  enables |= config->interrupt ? (uint32_t)PRU_FRAME_ENDED_ENABLE_MASK : 0U;
+  biss_pru_put(pru, PRU_ADDR_IRQ_ENABLE, enables);
+}
+
 /* Stops the master, configures it, starts it, and waits for the end of the first frame, which has
  * 1 MHz: at most 40 us, the longest frame and 100 us. The frames after it have config->mhz.
  * BISS_PRU_OK: the first frame is good.
@@ -319,10 +358,7 @@ BISS_PRU_RESULT biss_pru_start(biss_pru_master *pru, const biss_pru_port *port,
       config->overhead_us != 0 ? config->overhead_us : (uint32_t)BISS_PRU_OVERHEAD_US;
   biss_pru_result result = biss_pru_check(config);
   uint32_t longest_us = 0;
-  uint32_t period_us = 0;
   uint32_t clk_per_us = 0;
-  uint32_t features = 0;
-  uint32_t enables = 0;
   if (port->read == 0 || port->write == 0 || port->now_us == 0) {
     return BISS_PRU_BAD_PORT;
   }
@@ -330,38 +366,20 @@ BISS_PRU_RESULT biss_pru_start(biss_pru_master *pru, const biss_pru_port *port,
     return result;
   }
   pru->port = *port;
-  if (biss_pru_get(pru, PRU_ADDR_ID) != PRU_RESET_ID) {
+  clk_per_us = biss_pru_clk_per_us(pru);
+  if (clk_per_us == 0) {
     return BISS_PRU_NO_MASTER;
   }
-  features = biss_pru_get(pru, PRU_ADDR_FEATURES);
-  if ((features & PRU_SUCCESSOR_MASK) != 0) {
-    return BISS_PRU_NO_MASTER;
-  }
-  clk_per_us = (features & PRU_CLOCK_80_MASK) != 0 ? 80U : 200U;
   if (config->period_us > PRU_TRIGGER_PERIOD_MASK / clk_per_us) {
     return BISS_PRU_BAD_PERIOD;
   }
   if (overhead_us > PRU_OVERHEAD_MASK / clk_per_us) {
     return BISS_PRU_BAD_OVERHEAD;
   }
-
   longest_us = biss_pru_longest_us(config, overhead_us);
-  period_us = config->period_us + config->period_clk / clk_per_us;
-  pru->interrupt = config->interrupt;
-  pru->lengths = (uint32_t)config->crc_err_war << PRU_CRC_ERR_WAR_SHIFT | config->position_bits;
-  pru->limit_us =
-      config->frame_limit_us != 0
-          ? config->frame_limit_us
-          : 2U * (period_us > longest_us ? period_us : longest_us) + (uint32_t)BISS_PRU_MARGIN_US;
+  biss_pru_take_config(pru, config, clk_per_us, longest_us);
   biss_pru_stop(pru);
-  biss_pru_put(pru, PRU_ADDR_LENGTHS, biss_pru_at_mhz(pru, config->mhz));
-  biss_pru_put(pru, PRU_ADDR_TRIGGER_PERIOD, config->period_us * clk_per_us + config->period_clk);
-  biss_pru_put(pru, PRU_ADDR_OVERHEAD, overhead_us * clk_per_us);
-  biss_pru_put(pru, PRU_ADDR_PROC_TIME_MAX, config->proc_time_max);
-  biss_pru_put(pru, PRU_ADDR_IRQ_STATUS, PRU_WMASK_IRQ_STATUS);
-  enables = biss_pru_get(pru, PRU_ADDR_IRQ_ENABLE) & (uint32_t)~PRU_FRAME_ENDED_ENABLE_MASK;
-  enables |= config->interrupt ? (uint32_t)PRU_FRAME_ENDED_ENABLE_MASK : 0U;
-  biss_pru_put(pru, PRU_ADDR_IRQ_ENABLE, enables);
+  biss_pru_write_config(pru, config, clk_per_us, overhead_us);
   pru->told = biss_pru_frame_count(pru);
   biss_pru_put(pru, PRU_ADDR_RUN, PRU_RUN_MASK);
   result = biss_pru_first_frame(pru, BISS_PRU_SETTLE_US + longest_us + BISS_PRU_MARGIN_US);
@@ -410,6 +428,28 @@ static inline bool biss_pru_read_memory(const biss_pru_master *pru, biss_pru_rea
   return biss_pru_runs(pru);
 }
 
+/* Reads what the frame has brought whose FRAME_COUNT is reading->frame, or a later one that ends
+ * meanwhile. All results change in one clock: they are of one frame if FRAME_COUNT has not moved.
+ */
+static inline biss_pru_result biss_pru_read_frame(const biss_pru_master *pru,
+                                                  biss_pru_reading *reading, uint32_t *signals) {
+  uint8_t tries = BISS_PRU_TRIES;
+  for (;;) {
+    const uint16_t count = reading->frame;
+    if (!biss_pru_read_memory(pru, reading, signals)) {
+      return BISS_PRU_NOT_RUNNING;
+    }
+    reading->frame = biss_pru_frame_count(pru);
+    if (reading->frame == count) {
+      return BISS_PRU_OK;
+    }
+    tries = (uint8_t)(tries - 1U);
+    if (tries == 0) {
+      return BISS_PRU_TORN;
+    }
+  }
+}
+
 /* The last frame, if it was not told yet. Each frame is told once, whatever it brought. Never
  * waits: 10 accesses of the port, 8 more for each frame that ends meanwhile, 3 without a new frame.
  * BISS_PRU_OK: a new position. BISS_PRU_ENCODER_ERROR: what the encoder has sent, for a message.
@@ -419,39 +459,26 @@ static inline bool biss_pru_read_memory(const biss_pru_master *pru, biss_pru_rea
  * bits: after exactly 65,536 frames a new one looks like none. */
 BISS_PRU_RESULT biss_pru_position(biss_pru_master *pru, biss_pru_reading *reading) {
   const uint32_t now = biss_pru_now(pru); /* before FRAME_COUNT, as in biss_pru_first_frame() */
-  uint16_t count = 0;
-  uint8_t tries = BISS_PRU_TRIES;
   biss_pru_reading next;
   uint32_t signals = 0;
   biss_pru_result result = BISS_PRU_OK;
   if (pru->interrupt) {
     biss_pru_put(pru, PRU_ADDR_IRQ_STATUS, PRU_FRAME_ENDED_MASK);
   }
-  count = biss_pru_frame_count(pru);
-  if (count == pru->told) {
+  next.frame = biss_pru_frame_count(pru);
+  if (next.frame == pru->told) {
     if (!biss_pru_runs(pru)) {
       return BISS_PRU_NOT_RUNNING;
     }
     return now - pru->seen_us > pru->limit_us ? BISS_PRU_NO_FRAMES : BISS_PRU_NO_NEW_FRAME;
   }
   pru->seen_us = now;
-  for (;;) {
-    if (!biss_pru_read_memory(pru, &next, &signals)) {
-      return BISS_PRU_NOT_RUNNING;
-    }
-    /* All results change in one clock: they are of one frame if FRAME_COUNT has not moved. */
-    next.frame = biss_pru_frame_count(pru);
-    if (next.frame == count) {
-      break;
-    }
-    count = next.frame;
-    tries = (uint8_t)(tries - 1U);
-    if (tries == 0) {
-      return BISS_PRU_TORN;
-    }
+  result = biss_pru_read_frame(pru, &next, &signals);
+  if (result != BISS_PRU_OK) {
+    return result;
   }
-  next.frames = (uint16_t)(count - pru->told);
-  pru->told = count;
+  next.frames = (uint16_t)(next.frame - pru->told);
+  pru->told = next.frame;
   result = biss_pru_frame_result((uint32_t)next.flags << PRU_SMA_FLAG_SHIFT);
   /* POS and SIGNALS are those of the last good frame: of this one, if it is good. */
   next.warning = result == BISS_PRU_OK && (signals & PRU_NW_MASK) == 0;
@@ -574,10 +601,10 @@ static inline biss_pru_result biss_pru_give_up(biss_pru_master *pru, uint32_t no
  * first two: the published format does not wait for it.
  * BISS_PRU_NO_FRAMES, BISS_PRU_TIMEOUT, and BISS_PRU_NO_SLAVE while SL is 0: only after 48 times
  * frame_limit_us. The control frame may still go on with the next frames, and a write be done;
- * BISS_PRU_BUSY until it has ended, or until biss_pru_stop() and biss_pru_start(). If frames come back
- * in the very instant of this call, only the latter may end it.
- * BISS_PRU_NOT_RUNNING: the master was stopped or reset, so the encoder saw all or a part of it.
- * BISS_PRU_NO_ACCESS: none has begun. */
+ * BISS_PRU_BUSY until it has ended, or until biss_pru_stop() and biss_pru_start(). If frames come
+ * back in the very instant of this call, only the latter may end it. BISS_PRU_NOT_RUNNING: the
+ * master was stopped or reset, so the encoder saw all or a part of it. BISS_PRU_NO_ACCESS: none has
+ * begun. */
 BISS_PRU_RESULT biss_pru_poll(biss_pru_master *pru, uint8_t *data) {
   const uint32_t now = biss_pru_now(pru);
   uint16_t count = 0;

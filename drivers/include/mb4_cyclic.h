@@ -298,12 +298,13 @@ MB4_APART uint16_t mb4_word_crc(const mb4_word *word, uint32_t low, uint32_t hig
 /* What the reads of one chip have met: with MB4_WITH_COUNTS, each finished read of one slave or of
  * all. Set the object to zero once. The chip counts nothing: nAGSERR stays 0 from the first frame
  * that it has left out until BREAK or INIT, and SWBANKFAIL (0xFB) is 1 only until the next switch.
- * So what is lost is counted by time: the periods between two reads with a new word. This is exact
- * for frames with a fixed period, while the loop's phase to them stays within half a period of that
- * of the first such read, and as long as the caller's clock and the chip's agree: each half period
- * between them is one count. One object is for reads of one and the same slave, or for reads of
- * all: reads of several slaves one by one hide from each other what is lost. A read of all is good
- * if one word is. */
+ * So lost samples are counted by time: the counts know how many periods lie between two reads with
+ * a new word. The count is exact under three conditions. The frames have a fixed period. The time
+ * from a frame to its read never differs by more than half a period from what it was at the first
+ * such read. The clocks of the caller and of the chip agree: where they drift apart, each half
+ * period of difference is one wrong count. One object serves the reads of one slave, or the reads
+ * of all. Reads of several slaves, one by one, would hide from each other what is lost. A read of
+ * all is good if one of its words is. */
 typedef struct {
   uint32_t period_ns; /* the caller's: of the frames, at most 10^9; 0: nothing is counted as lost */
   uint32_t good;      /* reads with a new position: MB4_OK */
@@ -603,6 +604,22 @@ static inline bool mb4_memory_meets(const uint8_t *one, const uint8_t *other, ui
   return first < second + bytes && second < first + bytes;
 }
 
+/* The members of a read fit each other. */
+static inline bool mb4_cyclic_in_range(const mb4_cyclic *read) {
+  const bool full = read->spi_check >= MB4_SPI_CHECK_FULL;
+  return read->count >= 1 && read->count <= MB4_SLAVES &&
+         read->spi_check <= MB4_SPI_CHECK_FULL_AND_RELEASE &&
+         !(read->chain && (full || read->unheld)) && (read->count == 1 || read->watch->several);
+}
+
+/* The lines, the limits and the period of a watch are possible. */
+static inline bool mb4_watch_in_range(const mb4_watch *watch) {
+  const uint32_t period_ns = watch->counts != 0 ? watch->counts->period_ns : 0;
+  return watch->lines != 0 && (watch->lines & ~(unsigned)(MB4_CYCLIC_SL1 | MB4_CYCLIC_SL2)) == 0 &&
+         watch->omitted_us != 0 && watch->silent_us != 0 && period_ns <= 1000000000U &&
+         watch->omitted_us >= period_ns / 1000U && watch->silent_us >= period_ns / 1000U;
+}
+
 /* Checks what a read is set up with, once all members are set (`unheld`: whether it may become
  * true): before the first mb4_cyclic_plan(), and again after a change of a member (but for `unheld`
  * and `access`), a word, a member of the watch or the plan's memory. Until it has returned MB4_OK
@@ -632,24 +649,11 @@ static inline uint8_t mb4_cyclic_check(mb4_cyclic *read, const mb4_plan *plan, u
       mb4_memory_meets(plan->tx, plan->rx, (uint32_t)words * 4U)) {
     return MB4_INVALID_ARGUMENT;
   }
-  if (read->count < 1 || read->count > MB4_SLAVES ||
-      read->spi_check > MB4_SPI_CHECK_FULL_AND_RELEASE || (read->chain && (full || read->unheld)) ||
-      (read->count > 1 && !watch->several) || watch->lines == 0 ||
-      (watch->lines & ~(unsigned)(MB4_CYCLIC_SL1 | MB4_CYCLIC_SL2)) != 0 ||
-      watch->omitted_us == 0 || watch->silent_us == 0) {
+  if (!mb4_cyclic_in_range(read) || !mb4_watch_in_range(watch)) {
     return MB4_INVALID_CONFIG;
   }
-  if (watch->counts != 0) {
-    const uint32_t period_ns = watch->counts->period_ns;
-    parts |= MB4_WITH_COUNTS;
-    if (period_ns > 1000000000U || watch->omitted_us < period_ns / 1000U ||
-        watch->silent_us < period_ns / 1000U) {
-      return MB4_INVALID_CONFIG;
-    }
-  }
-  if (watch->several) {
-    parts |= MB4_WITH_SEVERAL;
-  }
+  parts = (uint8_t)(parts | (watch->counts != 0 ? MB4_WITH_COUNTS : 0) |
+                    (watch->several ? MB4_WITH_SEVERAL : 0));
   for (; i < read->count; ++i) {
     const uint8_t code = mb4_word_check(&read->words[i], i == 0 ? 0 : &read->words[i - 1], &parts);
     if (code != MB4_OK) {
@@ -984,10 +988,11 @@ static inline bool mb4_slot_told(const mb4_cyclic *read, const mb4_word *word, c
           read->watch->told[word->slave - 1] == (uint16_t)slot->low);
 }
 
-/* The words in the held bank without SVALID, and the last frame was bad. A stored CRC tells whether
- * such a word is the bad one; otherwise it was good and has been read before. Without one the bad
- * frame concerns this slave if there is no other, or if a good word of another one (`news`) shows
- * that the frame is new and a read of one slave has not taken this one's word of it. */
+/* The words in the held bank without SVALID, and the last frame was bad. A word with a stored CRC
+ * tells whether it is the bad one; otherwise it was good and has been read before. A word without a
+ * stored CRC cannot tell. It is the bad one if there is no other slave; or if two facts come
+ * together: a good word of another slave (`news`) shows that the frame is new, and no read of one
+ * slave has taken this word of the same frame. */
 static inline void mb4_cyclic_judge(mb4_cyclic *read, uint16_t missing, bool news, uint8_t with) {
   uint8_t i = 0;
   for (; i < mb4_cyclic_count(read, with); ++i) {
@@ -1034,11 +1039,29 @@ static inline void mb4_cyclic_mark(mb4_cyclic *read, mb4_plan *plan, uint8_t wit
   }
 }
 
+/* In a chain the bank is free already. It must be held while bad words are marked, so they are read
+ * once more. */
+static inline uint8_t mb4_cyclic_end_chain(mb4_cyclic *read, mb4_plan *plan, uint8_t with) {
+  uint8_t i = 0;
+  if (!read->bad) {
+    return MB4_OK;
+  }
+  read->again = true;
+  for (; i < mb4_cyclic_count(read, with); ++i) {
+    mb4_slot *slot = &read->slots[i];
+    if ((with & MB4_WITH_SEVERAL) != 0 && !slot->bad) {
+      read->flags = (uint16_t)(read->flags & ~mb4_word_flag(&read->words[i]));
+      read->one_frame = read->one_frame && slot->code != MB4_OK;
+    }
+    slot->bad = false;
+  }
+  return mb4_cyclic_try(read, plan, with);
+}
+
 /* Data and status of a held bank are here. */
 static inline uint8_t mb4_cyclic_held(mb4_cyclic *read, mb4_plan *plan, uint8_t frame,
                                       uint8_t with) {
   const bool full = (with & MB4_WITH_FULL) != 0 && read->spi_check >= MB4_SPI_CHECK_FULL;
-  const bool chained = read->chain && !read->again;
   const uint16_t valid = mb4_cyclic_valid(read);
   const uint16_t fresh = full ? read->fresh : 0;
   const uint16_t second =
@@ -1046,22 +1069,8 @@ static inline uint8_t mb4_cyclic_held(mb4_cyclic *read, mb4_plan *plan, uint8_t 
   if (mb4_cyclic_frame_bad(read)) {
     mb4_cyclic_judge(read, (uint16_t)(read->flags & ~(valid | fresh)), valid != 0, with);
   }
-  if (chained) {
-    if (read->bad) {
-      /* The bank is free already; it must be held while the words are marked. */
-      uint8_t i = 0;
-      read->again = true;
-      for (; i < mb4_cyclic_count(read, with); ++i) {
-        mb4_slot *slot = &read->slots[i];
-        if ((with & MB4_WITH_SEVERAL) != 0 && !slot->bad) {
-          read->flags = (uint16_t)(read->flags & ~mb4_word_flag(&read->words[i]));
-          read->one_frame = read->one_frame && slot->code != MB4_OK;
-        }
-        slot->bad = false;
-      }
-      return mb4_cyclic_try(read, plan, with);
-    }
-    return MB4_OK;
+  if (read->chain && !read->again) {
+    return mb4_cyclic_end_chain(read, plan, with);
   }
   (void)mb4_cyclic_next(read, plan, MB4_STAGE_END, MB4_OK);
   mb4_cyclic_mark(read, plan, with);
@@ -1323,6 +1332,58 @@ static inline uint8_t mb4_cyclic_take_lines(mb4_cyclic *read, const mb4_plan *pl
                                                                : (uint8_t)MB4_LINE_ERROR;
 }
 
+/* FREE: the bank that was still held is free. */
+static inline uint8_t mb4_cyclic_take_free(mb4_cyclic *read, mb4_plan *plan, bool transferred,
+                                           uint32_t now_us, uint8_t with) {
+  read->watch->news_us = now_us; /* no bank was switched meanwhile */
+  if (!transferred) {
+    return MB4_TRANSPORT;
+  }
+  if ((with & MB4_WITH_FULL) != 0 && read->watch->astray) {
+    /* A bank that was held stays so until the proof: the clears may have met it. */
+    return mb4_cyclic_prove(read, plan, MB4_STAGE_PROVE_FREE, read->code);
+  }
+  read->watch->held = false;
+  return mb4_cyclic_try(read, plan, with);
+}
+
+/* END: the release of the bank was the last frame. If it was not alone, it may not have been tried.
+ */
+static inline uint8_t mb4_cyclic_take_end(mb4_cyclic *read, mb4_plan *plan, bool transferred,
+                                          uint8_t with) {
+  if (!transferred && (plan->frames > 1 || plan->size[0] > 2)) {
+    return mb4_cyclic_release(read, plan, MB4_TRANSPORT);
+  }
+  /* The bank counts as held until it is known to be free. */
+  read->watch->held = !transferred || mb4_cyclic_proves(read, with);
+  if (transferred && read->watch->held) {
+    return mb4_cyclic_prove(read, plan, MB4_STAGE_PROVE_END, read->code);
+  }
+  return transferred ? read->code : (uint8_t)MB4_TRANSPORT;
+}
+
+/* DATA, and with FULL LOOK, SECOND and CLEAR: the bank is held. */
+static inline uint8_t mb4_cyclic_take_held(mb4_cyclic *read, mb4_plan *plan, bool transferred,
+                                           uint8_t with) {
+  const uint8_t end = read->chain && !read->again ? 2 : 1;
+  const uint8_t frame = (uint8_t)(plan->frames - end);
+  uint8_t code = MB4_TRANSPORT;
+  if (!transferred) {
+    return mb4_cyclic_release(read, plan, code);
+  }
+  if ((with & MB4_WITH_FULL) != 0 && read->stage == MB4_STAGE_LOOK) {
+    return mb4_cyclic_take_look(read, plan, with);
+  }
+  if ((with & MB4_WITH_FULL) != 0 && read->stage == MB4_STAGE_CLEAR) {
+    return mb4_cyclic_take_clear(read, plan, with);
+  }
+  code = mb4_cyclic_take_status(read, plan, frame);
+  if (code != MB4_OK) {
+    return mb4_cyclic_release(read, plan, code);
+  }
+  return mb4_cyclic_held(read, plan, (uint8_t)(frame - 1), with);
+}
+
 /* mb4_cyclic_finish() without the counts. */
 static inline uint8_t mb4_cyclic_step(mb4_cyclic *read, mb4_plan *plan, bool transferred,
                                       uint32_t now_us, uint8_t with) {
@@ -1338,27 +1399,10 @@ static inline uint8_t mb4_cyclic_step(mb4_cyclic *read, mb4_plan *plan, bool tra
                : mb4_cyclic_watch(read, plan, MB4_OK, now_us, with);
   }
   if (stage == MB4_STAGE_FREE) {
-    read->watch->news_us = now_us; /* no bank was switched meanwhile */
-    if (!transferred) {
-      return code;
-    }
-    if ((with & MB4_WITH_FULL) != 0 && read->watch->astray) {
-      /* A bank that was held stays so until the proof: the clears may have met it. */
-      return mb4_cyclic_prove(read, plan, MB4_STAGE_PROVE_FREE, code);
-    }
-    read->watch->held = false;
-    return mb4_cyclic_try(read, plan, with);
+    return mb4_cyclic_take_free(read, plan, transferred, now_us, with);
   }
   if (stage == MB4_STAGE_END) {
-    /* The release was the last frame. If it was not alone, it may not have been tried. */
-    if (!transferred && (plan->frames > 1 || plan->size[0] > 2)) {
-      return mb4_cyclic_release(read, plan, code);
-    }
-    /* The bank counts as held until it is known to be free. */
-    read->watch->held = !transferred || mb4_cyclic_proves(read, with);
-    if (transferred && read->watch->held) {
-      return mb4_cyclic_prove(read, plan, MB4_STAGE_PROVE_END, code);
-    }
+    code = mb4_cyclic_take_end(read, plan, transferred, with);
   } else if ((with & MB4_WITH_FULL) != 0 && stage >= MB4_STAGE_PROVE_END) {
     code = transferred ? mb4_cyclic_take_proof(read, plan) : code;
     if (stage == MB4_STAGE_PROVE_FREE && code == MB4_OK) {
@@ -1369,20 +1413,8 @@ static inline uint8_t mb4_cyclic_step(mb4_cyclic *read, mb4_plan *plan, bool tra
       code = stage == MB4_STAGE_LOOK ? mb4_cyclic_take_look(read, plan, with)
                                      : mb4_cyclic_take_unheld(read, plan, with);
     }
-  } else if (!transferred) {
-    return mb4_cyclic_release(read, plan, code);
-  } else if ((with & MB4_WITH_FULL) != 0 && stage == MB4_STAGE_LOOK) {
-    return mb4_cyclic_take_look(read, plan, with);
-  } else if ((with & MB4_WITH_FULL) != 0 && stage == MB4_STAGE_CLEAR) {
-    return mb4_cyclic_take_clear(read, plan, with);
   } else {
-    const uint8_t end = read->chain && !read->again ? 2 : 1;
-    const uint8_t frame = (uint8_t)(plan->frames - end);
-    code = mb4_cyclic_take_status(read, plan, frame);
-    if (code != MB4_OK) {
-      return mb4_cyclic_release(read, plan, code);
-    }
-    code = mb4_cyclic_held(read, plan, (uint8_t)(frame - 1), with);
+    code = mb4_cyclic_take_held(read, plan, transferred, with);
   }
   if (code == MB4_MORE || ((with & MB4_WITH_BEATS) != 0 && code == MB4_OK && read->blank != 0 &&
                            mb4_cyclic_take_blank(read, plan, with))) {
@@ -1391,15 +1423,43 @@ static inline uint8_t mb4_cyclic_step(mb4_cyclic *read, mb4_plan *plan, bool tra
   return mb4_cyclic_watch(read, plan, code, now_us, with);
 }
 
+/* A new word is here: how many samples have passed since the one before? */
+static inline void mb4_counts_take_sample(mb4_counts *counts, uint32_t now_us) {
+  const uint32_t period_ns = counts->period_ns;
+  const uint32_t before_ns = counts->rest_ns;
+  uint32_t left_us = now_us - counts->last_us;
+  uint32_t periods = 0;
+  uint32_t phase_ns = 0;
+  counts->last_us = now_us;
+  if (counts->sequence == 0 || period_ns == 0) {
+    ++counts->sequence;
+    counts->rest_ns = period_ns / 2;
+    return;
+  }
+  do {
+    const uint32_t part_us = left_us > 2000000U ? 2000000U : left_us;
+    const uint32_t time_ns = counts->rest_ns + part_us * 1000U;
+    periods += time_ns / period_ns;
+    counts->rest_ns = time_ns % period_ns;
+    left_us -= part_us;
+  } while (left_us != 0);
+  /* Rounded to whole periods, is the time since the last good read the same number? */
+  phase_ns = counts->rest_ns + period_ns / 2;
+  if (periods == 0) { /* a new word is a new sample */
+    periods = 1;
+    counts->rest_ns = 0;
+  } else if (phase_ns < before_ns || phase_ns - before_ns >= period_ns) {
+    ++counts->doubtful;
+  }
+  counts->sequence += periods;
+  counts->lost += periods - 1;
+}
+
 /* A read has ended with `code`. */
 MB4_APART void mb4_cyclic_count_read(const mb4_cyclic *read, uint8_t code, uint32_t now_us) {
   mb4_counts *counts = read->watch->counts;
   const uint32_t period_ns = counts->period_ns;
   const uint32_t since_us = now_us - counts->read_us;
-  const uint32_t before_ns = counts->rest_ns;
-  uint32_t left_us = now_us - counts->last_us;
-  uint32_t periods = 0;
-  uint32_t phase_ns = 0;
   if (counts->read_us != 0 && period_ns != 0 && since_us > period_ns / 1000 * 3 / 2) {
     ++counts->late;
   }
@@ -1424,29 +1484,7 @@ MB4_APART void mb4_cyclic_count_read(const mb4_cyclic *read, uint8_t code, uint3
   } else if (code != MB4_SLAVE_ERROR) {
     return;
   }
-  counts->last_us = now_us;
-  if (counts->sequence == 0 || period_ns == 0) {
-    ++counts->sequence;
-    counts->rest_ns = period_ns / 2;
-    return;
-  }
-  do {
-    const uint32_t part_us = left_us > 2000000U ? 2000000U : left_us;
-    const uint32_t time_ns = counts->rest_ns + part_us * 1000U;
-    periods += time_ns / period_ns;
-    counts->rest_ns = time_ns % period_ns;
-    left_us -= part_us;
-  } while (left_us != 0);
-  /* Rounded to whole periods, is the time since the last good read the same number? */
-  phase_ns = counts->rest_ns + period_ns / 2;
-  if (periods == 0) { /* a new word is a new sample */
-    periods = 1;
-    counts->rest_ns = 0;
-  } else if (phase_ns < before_ns || phase_ns - before_ns >= period_ns) {
-    ++counts->doubtful;
-  }
-  counts->sequence += periods;
-  counts->lost += periods - 1;
+  mb4_counts_take_sample(counts, now_us);
 }
 
 /* Takes what came back. `transferred`: all frames of the plan were made, in order. `now_us`: the

@@ -80,6 +80,8 @@ class Operation : public Steps {
   static constexpr std::uint8_t kPart = 8;
   static constexpr std::size_t kWords = 12;
 
+  enum class Purpose : std::uint8_t { kCompare, kConfigure, kReset };
+
   // Takes what came back and adds the next frames. Without frames the operation has ended.
   using Step = Result<void> (*)(detail::ChipState&, Operation&, std::uint32_t now_us);
 
@@ -87,14 +89,21 @@ class Operation : public Steps {
   Step step_ = nullptr;                      // nullptr: no operation is under way
   const detail::ChipState* chip_ = nullptr;  // that of the operation, also of the last one
   std::uint32_t stage_ = 0;
-  std::uint32_t at_ = 0;    // bytes done
-  std::size_t count_ = 0;   // of them all
-  std::uint32_t made_ = 0;  // frames of the step before
-  // An access: looks at the status that have failed, one after the other. INIT: 1 if it was not
-  // seen. An actuator: banks that are to be written after this one. A comparison: 1 if the request
-  // of an access may have been in the chip.
-  std::uint32_t bad_ = 0;
-  bool good_ = false;  // they were made
+  std::uint32_t at_ = 0;          // bytes of an access that are done
+  std::size_t count_ = 0;         // of them all; of the word of an actuator
+  std::uint32_t made_ = 0;        // frames of the step before
+  bool good_ = false;             // they were made
+  std::uint8_t failures_ = 0;     // of the same stage, one after the other
+  std::uint8_t instruction_ = 0;  // that stops
+  std::uint8_t address_ = 0;      // the part of a configuration; the word of an actuator
+  std::uint8_t index_ = 0;        // INIT: the channel, or the word, whose turn it is
+  std::uint8_t words_ = 0;        // an actuator: written into other banks so far
+  Purpose purpose_{};             // of a configuration
+  bool request_away_ = false;     // the request of an access may have been in the chip
+  bool restarts_ = false;         // an access: automatic frames start before it
+  bool init_unseen_ = false;      // INIT may be lost
+  bool both_banks_ = false;       // an actuator: the word is for both
+  bool differs_ = false;          // an actuator: the last reading was another word
   Result<void> result_{};
   Result<void> cause_{};                // is the result when the frames planned now are made
   const std::uint8_t* data_ = nullptr;  // to write, the caller's

@@ -73,8 +73,8 @@ inline void Procedures::begin_access(ChipState& chip, Operation& op, bool biss_b
   begin(chip, op, access_step);
   // Beside automatic frames BREAK is followed by a new start of the frames, in the access itself.
   const bool restart = chip.automatic && chip.control.stray;
+  op.restarts_ = restart;
   if (restart) {
-    op.bad_ = 1;
     chip.restart = true;  // until the frames run again
   }
   if (restart || biss_b || (!chip.automatic && chip.recover_first)) {
@@ -203,17 +203,17 @@ inline Result<void> Procedures::activate_step(ChipState& chip, Operation& op,
 inline void Procedures::add_request(ChipState& chip, Operation& op) {
   ControlState& state = chip.control;
   if (state.kind != ControlState::Kind::kRead && op.at_ < op.count_) {
-    op.stage_ = kFill;
+    op.stage_ = kData;
     add_bytes(op, static_cast<std::uint8_t>(regs::kAddrRdata + op.at_), op.data_ + op.at_,
-              part(op));
+              part_size(op));
     if (chip.automatic && chip.checks_all()) {
-      add_read(op, static_cast<std::uint8_t>(regs::kAddrScdata + op.at_), part(op), 1);
+      add_read(op, static_cast<std::uint8_t>(regs::kAddrScdata + op.at_), part_size(op), 1);
     }
     return;
   }
   // A command leaves 0xE2 and 0xE3 as they are.
   const std::uint8_t from = state.kind == ControlState::Kind::kCommand ? 2 : 0;
-  op.stage_ = kSet;
+  op.stage_ = kRequest;
   state.armed = true;
   add_proven(op, static_cast<std::uint8_t>(regs::kAddrRegadr + from), &op.request_[from],
              kRequestBytes - from);
@@ -230,23 +230,23 @@ inline bool Procedures::looks_for_strays(const ChipState& chip) {
 
 // All parts are read back when all are written: a disturbed address may have put one into another
 // one's place (0x88 and 0x80).
-inline void Procedures::add_back(ChipState& chip, Operation& op) {
-  op.stage_ = kCompare;
-  add_read(op, static_cast<std::uint8_t>(regs::kAddrRdata + op.at_), part(op));
+inline void Procedures::add_data_back(ChipState& chip, Operation& op) {
+  op.stage_ = kDataBack;
+  add_read(op, static_cast<std::uint8_t>(regs::kAddrRdata + op.at_), part_size(op));
   if (chip.checks_all()) {
-    add_read(op, static_cast<std::uint8_t>(kImageFirst + op.at_), part(op));
+    add_read(op, static_cast<std::uint8_t>(kImageFirst + op.at_), part_size(op));
     add_witness(op);
   }
 }
 
 // RDATA may hold the bytes from before, and then reads back right although the write went to the
 // configuration: 0x80 and 0xC0 differ in one bit. The witness has looked at 0xF4 and 0xF5.
-inline Result<void> Procedures::guarded(ChipState& chip, Operation& op) {
-  Result<void> seen = witnessed(chip, op);
+inline Result<void> Procedures::take_image_guard(ChipState& chip, Operation& op) {
+  Result<void> seen = take_witness(chip, op);
   const unsigned from = kImageFirst + static_cast<unsigned>(op.at_);
-  const unsigned size = from + part(op) <= regs::kAddrStatus0 ? part(op) : 0U;
+  const unsigned size = from + part_size(op) <= regs::kAddrStatus0 ? part_size(op) : 0U;
   if (seen && differs_at(chip, from, received(op) + 2, size, true) != kNowhere) {
-    doubt(chip);
+    begin_doubt(chip);
     seen = Error::kCorrupted;
   }
   --op.made_;
@@ -254,9 +254,14 @@ inline Result<void> Procedures::guarded(ChipState& chip, Operation& op) {
 }
 
 // Bytes of the next frame.
-inline std::uint8_t Procedures::part(const Operation& op) {
+inline std::uint8_t Procedures::part_size(const Operation& op) {
   const std::uint8_t left = static_cast<std::uint8_t>(op.count_ - op.at_);
   return left < Operation::kPart ? left : Operation::kPart;
+}
+
+// The part was read back as it was written.
+inline bool Procedures::part_is_back(const Operation& op) {
+  return bytes_equal(op.data_ + op.at_, received(op) + 2, part_size(op));
 }
 
 // Takes `count` registers that an access has read.
@@ -266,15 +271,16 @@ inline void Procedures::plan_take(ChipState& chip, Operation& op, std::uint8_t* 
   chip.control.owner = &op;
   op.out_ = out;
   op.count_ = count;
-  add_take(chip, op);
+  add_registers(chip, op);
 }
 
 // With SpiCheck::kFull each part is read in two steps, each with a witness. A disturbed opcode that
 // writes makes them differ: it writes 0x5A while the chip answers 0.
-inline void Procedures::add_take(ChipState& chip, Operation& op) {
-  op.stage_ = kTake;
+inline void Procedures::add_registers(ChipState& chip, Operation& op) {
+  op.stage_ = kRegisters;
   const bool full = chip.checks_all();
-  add_read(op, static_cast<std::uint8_t>(regs::kAddrRdata + op.at_), part(op), full ? 0x5A : 0);
+  add_read(op, static_cast<std::uint8_t>(regs::kAddrRdata + op.at_), part_size(op),
+           full ? 0x5A : 0);
   if (full) {
     add_witness(op);
   }
@@ -289,7 +295,7 @@ inline void Procedures::add_abort(ChipState& chip, Operation& op, const Result<v
   add_instruction(op, regs::BREAK::encode<1>());
   add_rest(chip, op);
   op.stage_ = kStopped;
-  op.bad_ = 0;
+  op.failures_ = 0;
   op.cause_ = cause;
 }
 
@@ -310,14 +316,14 @@ inline void Procedures::add_access(ChipState& chip, Operation& op) {
 }
 
 // The access does not begin, but its request may be in the chip.
-inline Result<void> Procedures::not_begun(ChipState& chip, Operation& op,
-                                          const Result<void>& cause) {
+inline Result<void> Procedures::abandon_request(ChipState& chip, Operation& op,
+                                                const Result<void>& cause) {
   if (!chip.control.armed) {
     return cause;
   }
   add_rest(chip, op);
   op.stage_ = kStopped;
-  op.bad_ = 0;
+  op.failures_ = 0;
   op.cause_ = cause;
   return {};
 }
@@ -328,274 +334,347 @@ inline Result<void> Procedures::access_step(ChipState& chip, Operation& op, std:
     return Error::kWrongMode;
   }
   chip.set_waits(ChipState::kForRequest, false);
-  const Result<void> done = access(chip, op, now_us);
+  const Result<void> done = access_stage(chip, op, now_us);
   if (done || chip.control.kind == ControlState::Kind::kNone) {
     return done;
   }
-  if (op.stage_ <= kRestarted || (op.stage_ >= kFill && op.stage_ <= kSet)) {
+  if (op.stage_ == kRecover || (op.stage_ >= kRestarted && op.stage_ <= kRequest)) {
     // Nothing was begun. But the write may have reached other registers, 0xF4 among them.
     chip.control.kind = ControlState::Kind::kNone;
     chip.restart = chip.automatic || chip.restart;
     chip.control.stray = chip.control.stray || chip.checks_all();
-    const bool fills = op.stage_ == kFill || op.stage_ == kCompare;
+    const bool fills = op.stage_ == kData || op.stage_ == kDataBack;
     chip.control.armed = chip.control.armed || fills;
-    return not_begun(chip, op, done);
+    return abandon_request(chip, op, done);
   }
   clear_plan(op);
   add_abort(chip, op, done);
   return {};
 }
 
-inline Result<void> Procedures::access(ChipState& chip, Operation& op, std::uint32_t now_us) {
-  ControlState& state = chip.control;
-  // These judge a failed transfer themselves.
-  const bool own =
-      op.stage_ >= kFirst || op.stage_ == kPoll || op.stage_ == kPollAgain || op.stage_ == kClear;
-  if (!op.good_ && !own) {
+// The stage judges a failed transfer itself.
+inline bool Procedures::takes_failure(std::uint32_t stage) {
+  return stage == kPoll || stage == kClear || stage == kStopped || stage >= kPollAgain;
+}
+
+// One stage: what its frames have brought, and the frames of the next one.
+inline Result<void> Procedures::access_stage(ChipState& chip, Operation& op, std::uint32_t now_us) {
+  if (!op.good_ && !takes_failure(op.stage_)) {
     return Error::kTransport;
   }
   switch (op.stage_) {
-    case kFill:
-      // 0x80 and 0x00 differ in one bit. If the bytes are in SCDATAx, a word that waits may be no
-      // word of the encoder, although its CRC fits (all 0): the next read drops it.
-      if (chip.automatic && chip.checks_all() &&
-          equal(op.data_ + op.at_, received(op) + 2, part(op))) {
-        chip.watch.held = true;
-      }
-      op.at_ += part(op);
-      if (op.at_ < op.count_) {
-        add_request(chip, op);
-      } else {
-        op.at_ = 0;
-        add_back(chip, op);
-      }
-      return {};
-    case kCompare:
-    case kSet: {
-      Result<void> set;
-      if (op.stage_ == kSet) {
-        const bool looks = looks_for_strays(chip);
-        set = looks ? witnessed(chip, op) : Result<void>();
-        set = set ? written(chip, op) : set;
-        if (set && looks && !op.status_.control_ended()) {
-          state.stray = true;
-        }
-      } else {
-        set = chip.checks_all() ? guarded(chip, op) : Result<void>();
-        if (set && !equal(op.data_ + op.at_, received(op) + 2, part(op))) {
-          doubt(chip);
-          set = Error::kCorrupted;
-        }
-      }
-      if (!set) {
-        return set;
-      }
-      if (state.stray && chip.checks_all()) {
-        return Error::kCorrupted;  // it may take these bytes; the next access begins with BREAK
-      }
-      if (op.stage_ == kSet) {
-        add_access(chip, op);
-        return {};
-      }
-      op.at_ += part(op);
-      if (op.at_ < op.count_) {
-        add_back(chip, op);
-      } else {
-        add_request(chip, op);
-      }
-      return {};
-    }
-    case kRecover: {
-      const Result<void> done = recovered(chip, op);
-      if (!has_recovered(done, op)) {
-        return done;
-      }
-      if (op.bad_ != 0) {
-        op.bad_ = 0;
-        add_start(chip, op);
-        if (chip.checks_all()) {
-          op.stage_ = kRestarted;
-          return {};
-        }
-        chip.started(now_us);
-      }
-      add_request(chip, op);
-      return {};
-    }
+    case kRecover:
+      return take_access_recovery(chip, op, now_us);
     case kRestarted:
-      if (const Result<void> done = confirmed_start(chip, op); !done) {
-        return done;
-      }
-      chip.started(now_us);
-      add_request(chip, op);
+      return take_access_restart(chip, op, now_us);
+    case kData:
+      take_data(chip, op);
       return {};
-    case kStart: {
-      if (state.stray && chip.checks_all()) {
-        return Error::kCorrupted;  // a read since then may have changed the request in the chip
-      }
-      state.access_us = now_us;
-      op.limit_.begin(now_us, access_us(chip));
-      if (state.biss_b) {
-        state.agserr_at_start = !look(op) || op.status_.start_error();
-      } else if (chip.automatic && chip.checks_all()) {
-        // REGEND falls with the instruction, and reads 0 while it waits. If it is still 1, the
-        // instruction was lost and the access before would count as this one; or this access has
-        // failed at once (nREGERR = 0). One disturbed status must not hide an access that runs.
-        const Result<void> seen = look(op);
-        state.suspect = state.suspect || (!seen && op.good_);
-        const bool lost = seen && op.status_.control_ended() && !op.status_.control_error();
-        // A disturbed SWBANK or HOLDBANK: the next read drops the words that wait. Where reads
-        // write no 0xF4 beside an access, none can.
-        bool stuck =
-            seen && (op.status_.get<regs::SWBANK>() | op.status_.get<regs::HOLDBANK>()) != 0;
-        if (stuck && chip.config.hold_beside_access) {
-          chip.watch.held = true;
-          stuck = false;
-        }
-        // AGS = 0 in what was written has made one frame, now, and the next read would begin
-        // others. An error of the line ends AGS too.
-        if (seen && op.status_.get<regs::AGS>() == 0 && !op.status_.start_error()) {
-          return Error::kCorrupted;
-        }
-        if (!seen || lost || stuck) {
-          if (op.made_ != 1) {
-            mb4_cyclic_add_status(&op.plan_);
-            return {};
-          }
-          if (!seen) {
-            return seen;
-          }
-          if (lost) {
-            state.kind = ControlState::Kind::kNone;
-            return not_begun(chip, op, Error::kCorrupted);
-          }
-          return Error::kCorrupted;
-        }
-      }
-      again(op, now_us);
-      return {};
-    }
+    case kDataBack:
+      return take_data_back(chip, op);
+    case kRequest:
+      return take_request_back(chip, op);
+    case kStart:
+      return take_access_start(chip, op, now_us);
     case kNextFrame:
       op.limit_.begin(now_us, chip.frame_us);
-      again(op, now_us);
+      add_next_poll(op, now_us);
       return {};
     case kPoll:
     case kPollAgain:
-      return poll(chip, op, now_us);
-    case kTake: {
-      if (chip.checks_all()) {
-        if (state.stray) {
-          return not_taken(chip);  // a read since the end may have changed RDATA
-        }
-        if (const Result<void> seen = witnessed(chip, op); !seen) {
-          return seen.error() == Error::kCorrupted ? not_taken(chip) : seen;
-        }
-      }
-      const std::uint8_t* from = received(op) + 2;
-      std::uint8_t* to = op.out_ + op.at_;
-      for (std::uint8_t* end = to + part(op); to != end;) {
-        *to++ = *from++;
-      }
-      if (chip.checks_all()) {
-        add_read(op, static_cast<std::uint8_t>(regs::kAddrRdata + op.at_), part(op));
-        add_witness(op);
-        op.stage_ = kTakeAgain;
-        return {};
-      }
-      return taken(chip, op);
-    }
-    case kTakeAgain: {
-      const Result<void> seen = witnessed(chip, op);
-      if (seen.error() == Error::kNotDetected) {
-        return seen;
-      }
-      // An access that a disturbed byte has started meanwhile has read register 0 into RDATA1.
-      if (seen && (op.at_ != 0 || *op.out_ == state.first) &&
-          equal(op.out_ + op.at_, received(op) + 2, part(op))) {
-        return taken(chip, op);
-      }
-      doubt(chip);
-      return not_taken(chip);
-    }
-    case kFirst: {
-      const Result<void> seen = witnessed(chip, op);
-      if (!seen && seen.error() != Error::kCorrupted && ++op.bad_ != kBadLooks) {
-        add_first(op);
-        return {};
-      }
-      op.bad_ = 0;
-      state.first = seen ? received(op)[2] : std::uint8_t{0};
-      add_end(chip, op);
-      return {};
-    }
+      return take_access_status(chip, op, now_us);
+    case kFirst:
+      return take_first_register(chip, op);
     case kRest:
-      if (!op.good_ && ++op.bad_ != kBadLooks) {
-        add_end(chip, op);
-        return {};
-      }
-      if (!rested(chip, op)) {
-        return {};
-      }
-      if (state.suspect) {
-        doubt(chip);
-      }
-      if (state.armed) {
-        return op.cause_;
-      }
-      if (!chip.automatic && chip.checks_all()) {
-        add_clear(chip, op);
-        return {};
-      }
-      chip.recover_first = chip.automatic;
-      return ended(chip, op);
-    case kClear: {
-      const Result<void> cleared = clear_step(chip, op, now_us);
-      if (op.plan_.frames == 0) {
-        // Otherwise the next frame begins with BREAK.
-        chip.recover_first = !cleared || op.cause_.error() == Error::kCorrupted;
-        return ended(chip, op);
-      }
-      return {};
-    }
-    default: {  // kStopped: an error that came before stays the result
-      if (!rested(chip, op)) {
-        return {};
-      }
-      const Error cause = op.cause_.error();
-      const bool last = cause == Error::kNone || cause == Error::kTimeout;
-      return !op.good_ && last ? Result<void>(Error::kTransport) : op.cause_;
-    }
+      return take_end(chip, op);
+    case kClear:
+      return take_access_clear(chip, op, now_us);
+    case kRegisters:
+      return take_registers(chip, op);
+    case kRegistersAgain:
+      return take_registers_again(chip, op);
+    default:
+      return take_access_abort(chip, op);
   }
 }
 
+// BREAK was sent, and automatic frames start anew if it has stopped them.
+inline Result<void> Procedures::take_access_recovery(ChipState& chip, Operation& op,
+                                                     std::uint32_t now_us) {
+  const Result<void> done = take_recovery(chip, op);
+  if (!recovery_is_over(done, op)) {
+    return done;
+  }
+  if (op.restarts_) {
+    op.restarts_ = false;
+    add_start(chip, op);
+    if (chip.checks_all()) {
+      op.stage_ = kRestarted;
+      return {};
+    }
+    chip.started(now_us);
+  }
+  add_request(chip, op);
+  return {};
+}
+
+inline Result<void> Procedures::take_access_restart(ChipState& chip, Operation& op,
+                                                    std::uint32_t now_us) {
+  const Result<void> done = take_start(chip, op);
+  if (done) {
+    chip.started(now_us);
+    add_request(chip, op);
+  }
+  return done;
+}
+
+// A part of RDATA or IDS was written.
+inline void Procedures::take_data(ChipState& chip, Operation& op) {
+  // 0x80 and 0x00 differ in one bit. If the bytes are in SCDATAx, a word that waits may be no word
+  // of the encoder, although its CRC fits (all 0): the next read drops it.
+  if (chip.automatic && chip.checks_all() && part_is_back(op)) {
+    chip.watch.held = true;
+  }
+  op.at_ += part_size(op);
+  if (op.at_ < op.count_) {
+    add_request(chip, op);
+  } else {
+    op.at_ = 0;
+    add_data_back(chip, op);
+  }
+}
+
+// A part of RDATA or IDS was read back.
+inline Result<void> Procedures::take_data_back(ChipState& chip, Operation& op) {
+  Result<void> set = chip.checks_all() ? take_image_guard(chip, op) : Result<void>();
+  if (set && !part_is_back(op)) {
+    begin_doubt(chip);
+    set = Error::kCorrupted;
+  }
+  if (!set) {
+    return set;
+  }
+  if (stray_takes_request(chip)) {
+    return Error::kCorrupted;
+  }
+  op.at_ += part_size(op);
+  if (op.at_ < op.count_) {
+    add_data_back(chip, op);
+  } else {
+    add_request(chip, op);
+  }
+  return {};
+}
+
+// 0xE2..0xE5 were written and read back.
+inline Result<void> Procedures::take_request_back(ChipState& chip, Operation& op) {
+  const bool looks = looks_for_strays(chip);
+  Result<void> set = looks ? take_witness(chip, op) : Result<void>();
+  set = set ? take_readback(chip, op) : set;
+  if (!set) {
+    return set;
+  }
+  if (looks && !op.status_.control_ended()) {
+    chip.control.stray = true;
+  }
+  if (stray_takes_request(chip)) {
+    return Error::kCorrupted;
+  }
+  add_access(chip, op);
+  return {};
+}
+
+// An access that nobody asked for may take the bytes of this one; the next access begins with
+// BREAK.
+inline bool Procedures::stray_takes_request(const ChipState& chip) {
+  return chip.control.stray && chip.checks_all();
+}
+
+// The instruction was written.
+inline Result<void> Procedures::take_access_start(ChipState& chip, Operation& op,
+                                                  std::uint32_t now_us) {
+  ControlState& state = chip.control;
+  if (state.stray && chip.checks_all()) {
+    return Error::kCorrupted;  // a read since then may have changed the request in the chip
+  }
+  state.access_us = now_us;
+  op.limit_.begin(now_us, access_us(chip));
+  if (state.biss_b) {
+    state.agserr_at_start = !take_status(op) || op.status_.start_error();
+  } else if (chip.automatic && chip.checks_all()) {
+    const Result<void> begun = take_start_status(chip, op);
+    if (!begun || op.plan_.frames != 0) {
+      return begun;
+    }
+  }
+  add_next_poll(op, now_us);
+  return {};
+}
+
+// Beside automatic frames, with SpiCheck::kFull: has the chip got the instruction? Success without
+// frames: it has. REGEND falls with the instruction, and reads 0 while it waits. If it is still 1,
+// the instruction was lost and the access before would count as this one; or this access has failed
+// at once (nREGERR = 0). One disturbed status must not hide an access that runs.
+inline Result<void> Procedures::take_start_status(ChipState& chip, Operation& op) {
+  ControlState& state = chip.control;
+  const Result<void> seen = take_status(op);
+  state.suspect = state.suspect || (!seen && op.good_);
+  const bool lost = seen && op.status_.control_ended() && !op.status_.control_error();
+  // A disturbed SWBANK or HOLDBANK: the next read drops the words that wait. Where reads write no
+  // 0xF4 beside an access, none can.
+  bool stuck = seen && (op.status_.get<regs::SWBANK>() | op.status_.get<regs::HOLDBANK>()) != 0;
+  if (stuck && chip.config.hold_beside_access) {
+    chip.watch.held = true;
+    stuck = false;
+  }
+  // AGS = 0 in what was written has made one frame, now, and the next read would begin others. An
+  // error of the line ends AGS too.
+  if (seen && op.status_.get<regs::AGS>() == 0 && !op.status_.start_error()) {
+    return Error::kCorrupted;
+  }
+  if (seen && !lost && !stuck) {
+    return {};
+  }
+  if (op.made_ != 1) {
+    mb4_cyclic_add_status(&op.plan_);
+    return {};
+  }
+  if (!seen) {
+    return seen;
+  }
+  if (lost) {
+    state.kind = ControlState::Kind::kNone;
+    return abandon_request(chip, op, Error::kCorrupted);
+  }
+  return Error::kCorrupted;
+}
+
+// The access has ended, and RDATA1 was read.
+inline Result<void> Procedures::take_first_register(ChipState& chip, Operation& op) {
+  const Result<void> seen = take_witness(chip, op);
+  if (!seen && seen.error() != Error::kCorrupted && ++op.failures_ != kMostFailures) {
+    add_first_register(op);
+    return {};
+  }
+  op.failures_ = 0;
+  chip.control.first = seen ? received(op)[2] : std::uint8_t{0};
+  add_end(chip, op);
+  return {};
+}
+
+// The access has ended, and the request at rest was written.
+inline Result<void> Procedures::take_end(ChipState& chip, Operation& op) {
+  if (!op.good_ && ++op.failures_ != kMostFailures) {
+    add_end(chip, op);
+    return {};
+  }
+  if (!take_rest(chip, op)) {
+    return {};
+  }
+  if (chip.control.suspect) {
+    begin_doubt(chip);
+  }
+  if (chip.control.armed) {
+    return op.cause_;
+  }
+  if (!chip.automatic && chip.checks_all()) {
+    add_clear(chip, op);
+    return {};
+  }
+  chip.recover_first = chip.automatic;
+  return end_access(chip, op);
+}
+
+// The same, and SVALID = 0.
+inline Result<void> Procedures::take_access_clear(ChipState& chip, Operation& op,
+                                                  std::uint32_t now_us) {
+  const Result<void> cleared = clear_step(chip, op, now_us);
+  if (op.plan_.frames != 0) {
+    return {};
+  }
+  // Otherwise the next frame begins with BREAK.
+  chip.recover_first = !cleared || op.cause_.error() == Error::kCorrupted;
+  return end_access(chip, op);
+}
+
+// A part of RDATA was read.
+inline Result<void> Procedures::take_registers(ChipState& chip, Operation& op) {
+  if (chip.checks_all()) {
+    if (chip.control.stray) {
+      return lose_registers(chip);  // a read since the end may have changed RDATA
+    }
+    if (const Result<void> seen = take_witness(chip, op); !seen) {
+      return seen.error() == Error::kCorrupted ? lose_registers(chip) : seen;
+    }
+  }
+  const std::uint8_t* from = received(op) + 2;
+  std::uint8_t* to = op.out_ + op.at_;
+  for (std::uint8_t* end = to + part_size(op); to != end;) {
+    *to++ = *from++;
+  }
+  if (chip.checks_all()) {
+    add_read(op, static_cast<std::uint8_t>(regs::kAddrRdata + op.at_), part_size(op));
+    add_witness(op);
+    op.stage_ = kRegistersAgain;
+    return {};
+  }
+  keep_registers(chip, op);
+  return {};
+}
+
+inline Result<void> Procedures::take_registers_again(ChipState& chip, Operation& op) {
+  const Result<void> seen = take_witness(chip, op);
+  if (seen.error() == Error::kNotDetected) {
+    return seen;
+  }
+  // An access that a disturbed byte has started meanwhile has read register 0 into RDATA1.
+  if (seen && (op.at_ != 0 || *op.out_ == chip.control.first) &&
+      bytes_equal(op.out_ + op.at_, received(op) + 2, part_size(op))) {
+    keep_registers(chip, op);
+    return {};
+  }
+  begin_doubt(chip);
+  return lose_registers(chip);
+}
+
+// BREAK or the request at rest was sent: an error that came before stays the result.
+inline Result<void> Procedures::take_access_abort(ChipState& chip, Operation& op) {
+  if (!take_rest(chip, op)) {
+    return {};
+  }
+  const Error cause = op.cause_.error();
+  const bool last = cause == Error::kNone || cause == Error::kTimeout;
+  return !op.good_ && last ? Result<void>(Error::kTransport) : op.cause_;
+}
+
 // What stands in RDATA need not be what the slave has answered.
-inline Result<void> Procedures::not_taken(ChipState& chip) {
+inline Result<void> Procedures::lose_registers(ChipState& chip) {
   chip.control.readable = 0;
   chip.control.waits = false;
   return Error::kCorrupted;
 }
 
 // A part of the registers is here.
-inline Result<void> Procedures::taken(ChipState& chip, Operation& op) {
-  op.at_ += part(op);
+inline void Procedures::keep_registers(ChipState& chip, Operation& op) {
+  op.at_ += part_size(op);
   if (op.at_ < op.count_) {
-    add_take(chip, op);
+    add_registers(chip, op);
   } else if (op.at_ == chip.control.readable) {
     chip.control.waits = false;
   }
-  return {};
 }
 
 // Has the access ended, or the frame?
-inline Result<void> Procedures::poll(ChipState& chip, Operation& op, std::uint32_t now_us) {
-  ControlState& state = chip.control;
+inline Result<void> Procedures::take_access_status(ChipState& chip, Operation& op,
+                                                   std::uint32_t now_us) {
+  const ControlState& state = chip.control;
   const Status before = op.status_;
-  if (const Result<void> seen = look(op); !seen) {
-    state.suspect = state.suspect || op.good_;
-    if (++op.bad_ >= kBadLooks) {
+  if (const Result<void> seen = take_status(op); !seen) {
+    chip.control.suspect = chip.control.suspect || op.good_;
+    if (++op.failures_ >= kMostFailures) {
       return seen;
     }
-    again(op, now_us);
+    add_next_poll(op, now_us);
     return {};
   }
   const Status& status = op.status_;
@@ -605,59 +684,15 @@ inline Result<void> Procedures::poll(ChipState& chip, Operation& op, std::uint32
   const bool alone = chip.automatic || state.biss_b;
   const bool stale = !alone && state.first_frame;
   if (frame_over && status.control_ended() && !stale) {
-    const bool decides = !state.biss_b || state.first_frame || op.limit_.over;
-    // One disturbed bit must not end the access, nor hide how it has ended.
-    if (decides && chip.checks_all() && !(op.stage_ == kPollAgain && agrees(chip, op, before))) {
-      if (++op.bad_ > kBadLooks) {
-        return Error::kCorrupted;
-      }
-      add_poll(op);
-      op.stage_ = kPollAgain;
-      return {};
-    }
-    // Now the slaves' register timeout runs. The line does not show its end.
-    if (state.biss_b && state.first_frame) {
-      // nAGSERR = 0 has two possible causes. (1) No slave has taken part in the hand-over; then the
-      // access has lasted as long as the chip's limit. (2) The chip sets nAGSERR = 0 at each write
-      // of 0xF4 (page 34 can be read so), which the status directly after the instruction shows;
-      // then the time decides. A quarter of the limit separates the two, because the internal
-      // oscillator may be faster than f_clk_hz says (D05).
-      state.no_hand_over =
-          status.start_error() && (!state.agserr_at_start ||
-                                   now_us - state.access_us >= register_limit_us(chip.config) / 4);
-      state.first_frame = false;
-      op.bad_ = 0;
-      op.limit_.begin(now_us, chip.config.register_timeout_us);
-      again(op, now_us);
-      return {};
-    }
-    if (decides) {
-      return conclude(chip, op);
-    }
-    again(op, now_us);
-    return {};
+    return take_regend(chip, op, before, now_us);
   }
-  op.bad_ = 0;
+  op.failures_ = 0;
   if (!op.limit_.over) {
     if (alone || !frame_over) {
-      again(op, now_us);
+      add_next_poll(op, now_us);
       return {};
     }
-    // One disturbed bit must not make a frame more: it would run the whole access again.
-    if (chip.checks_all() && op.stage_ != kPollAgain) {
-      add_poll(op);
-      op.stage_ = kPollAgain;
-      return {};
-    }
-    state.first_frame = false;
-    if (!enough_frames(chip, now_us)) {
-      ++state.frames;
-      add_instruction(op, kControlFrame);
-      op.stage_ = kNextFrame;
-      if (chip.config.frame_start != FrameStart::kWaitForLine) {
-        // The chip refuses a frame before the slaves' timeout is over (activate()).
-        op.plan_.pause_us = kLineRecoveryUs + kClockStepUs;
-      }
+    if (take_frame_end(chip, op, now_us)) {
       return {};
     }
   }
@@ -665,9 +700,76 @@ inline Result<void> Procedures::poll(ChipState& chip, Operation& op, std::uint32
   return {};
 }
 
+// REGEND = 1: the access has ended. One disturbed bit must not end it, nor hide how it has ended.
+inline Result<void> Procedures::take_regend(ChipState& chip, Operation& op, const Status& before,
+                                            std::uint32_t now_us) {
+  const ControlState& state = chip.control;
+  const bool decides = !state.biss_b || state.first_frame || op.limit_.over;
+  if (decides && chip.checks_all() &&
+      !(op.stage_ == kPollAgain && statuses_agree(chip, op, before))) {
+    if (++op.failures_ > kMostFailures) {
+      return Error::kCorrupted;
+    }
+    add_poll(op);
+    op.stage_ = kPollAgain;
+    return {};
+  }
+  if (state.biss_b && state.first_frame) {
+    begin_register_timeout(chip, op, now_us);
+    return {};
+  }
+  if (decides) {
+    return conclude_access(chip, op);
+  }
+  add_next_poll(op, now_us);
+  return {};
+}
+
+// BiSS B: now the slaves' register timeout runs. The line does not show its end.
+//
+// nAGSERR = 0 has two possible causes. (1) No slave has taken part in the hand-over; then the
+// access has lasted as long as the chip's limit. (2) The chip sets nAGSERR = 0 at each write of
+// 0xF4 (page 34 can be read so), which the status directly after the instruction shows; then the
+// time decides. A quarter of the limit separates the two, because the internal oscillator may be
+// faster than f_clk_hz says (D05).
+inline void Procedures::begin_register_timeout(ChipState& chip, Operation& op,
+                                               std::uint32_t now_us) {
+  ControlState& state = chip.control;
+  state.no_hand_over =
+      op.status_.start_error() &&
+      (!state.agserr_at_start || now_us - state.access_us >= register_limit_us(chip.config) / 4);
+  state.first_frame = false;
+  op.failures_ = 0;
+  op.limit_.begin(now_us, chip.config.register_timeout_us);
+  add_next_poll(op, now_us);
+}
+
+// Without automatic frames a frame of the access is over. False: no other one may follow. One
+// disturbed bit must not make a frame more: it would run the whole access again.
+inline bool Procedures::take_frame_end(ChipState& chip, Operation& op, std::uint32_t now_us) {
+  if (chip.checks_all() && op.stage_ != kPollAgain) {
+    add_poll(op);
+    op.stage_ = kPollAgain;
+    return true;
+  }
+  chip.control.first_frame = false;
+  if (enough_frames(chip, now_us)) {
+    return false;
+  }
+  ++chip.control.frames;
+  add_instruction(op, kControlFrame);
+  op.stage_ = kNextFrame;
+  if (chip.config.frame_start != FrameStart::kWaitForLine) {
+    // The chip refuses a frame before the slaves' timeout is over (activate()).
+    op.plan_.pause_us = kLineRecoveryUs + kClockStepUs;
+  }
+  return true;
+}
+
 // The status tells of the end what the one `before` has told. Beside automatic frames nAGSERR may
 // change at any time.
-inline bool Procedures::agrees(const ChipState& chip, const Operation& op, const Status& before) {
+inline bool Procedures::statuses_agree(const ChipState& chip, const Operation& op,
+                                       const Status& before) {
   const unsigned end = regs::REGEND::kMask | regs::nREGERR::kMask | regs::nDELAYERR::kMask |
                        (chip.automatic ? 0U : unsigned{regs::nAGSERR::kMask});
   const Status& status = op.status_;
@@ -676,7 +778,7 @@ inline bool Procedures::agrees(const ChipState& chip, const Operation& op, const
 }
 
 // The access has ended; how?
-inline Result<void> Procedures::conclude(ChipState& chip, Operation& op) {
+inline Result<void> Procedures::conclude_access(ChipState& chip, Operation& op) {
   ControlState& state = chip.control;
   // 0x08, the instruction of a frame, and 0x09, which begins automatic frames, differ in one bit.
   if (chip.checks_all() && !chip.automatic && op.status_.instruction() != 0) {
@@ -693,9 +795,9 @@ inline Result<void> Procedures::conclude(ChipState& chip, Operation& op) {
   state.waits = state.readable != 0;
   state.kind = ControlState::Kind::kNone;
   state.ended = true;
-  op.bad_ = 0;
+  op.failures_ = 0;
   if (chip.checks_all() && state.readable != 0) {
-    add_first(op);
+    add_first_register(op);
   } else {
     add_end(chip, op);
   }
@@ -704,7 +806,7 @@ inline Result<void> Procedures::conclude(ChipState& chip, Operation& op) {
 
 // RDATA1, before another request may stand in the chip: take() compares it. A disturbed opcode that
 // writes makes them differ.
-inline void Procedures::add_first(Operation& op) {
+inline void Procedures::add_first_register(Operation& op) {
   op.stage_ = kFirst;
   add_read(op, regs::kAddrRdata, 1, 0x5A);
   add_witness(op);
@@ -727,10 +829,10 @@ inline void Procedures::add_end(const ChipState& chip, Operation& op) {
   add_rest(chip, op);
 }
 
-inline Result<void> Procedures::ended(ChipState& chip, Operation& op) {
+inline Result<void> Procedures::end_access(ChipState& chip, Operation& op) {
   if (op.cause_ && chip.control.readable != 0 && op.out_ != nullptr) {
     op.at_ = 0;
-    add_take(chip, op);
+    add_registers(chip, op);
   }
   return op.cause_;
 }

@@ -14,11 +14,8 @@
 
 namespace mb4::detail {
 
-// Of bad_: the word is for both banks; the last reading has differed; words for other banks so far.
-inline constexpr std::uint32_t kBothBanks = 1;
-inline constexpr std::uint32_t kDiffers = 2;
-inline constexpr std::uint32_t kOneWord = 4;
-inline constexpr std::uint32_t kMostWords = 8;
+// Words for other banks that an operation writes at most.
+inline constexpr std::uint8_t kMostWords = 8;
 
 // A switch of the banks takes some system clocks, each at most 1 us.
 inline constexpr std::uint32_t kSwitchUs = 10 + kClockStepUs;
@@ -52,14 +49,16 @@ inline Result<void> Procedures::plan_actuator(ChipState& chip, Operation& op, st
   begin(chip, op, chip.automatic ? held_step : switched_step);
   op.request_ = bytes;
   op.count_ = data_bytes(config);
-  op.at_ = regs::scdata_address(slave);
-  op.bad_ = both_banks ? kBothBanks : 0;
+  op.address_ = regs::scdata_address(slave);
+  op.both_banks_ = both_banks;
+  op.differs_ = false;
+  op.words_ = 0;
   if (chip.automatic) {
     add_held(chip, op);
   } else if (chip.recover_first) {
     add_recovery(chip, op);
   } else {
-    add_word(chip, op, kFill);
+    add_word(chip, op, kWord);
   }
   chip.recover_first = chip.recover_first || !chip.automatic;
   return {};
@@ -67,7 +66,7 @@ inline Result<void> Procedures::plan_actuator(ChipState& chip, Operation& op, st
 
 inline void Procedures::add_word(ChipState& chip, Operation& op, std::uint32_t stage) {
   op.stage_ = stage;
-  add_write(chip, op, static_cast<std::uint8_t>(op.at_), op.request_.data(), op.count_);
+  add_write(chip, op, op.address_, op.request_.data(), op.count_);
   if (chip.checks_all()) {
     add_witness(op);
   }
@@ -83,11 +82,12 @@ inline void Procedures::add_confirmed(ChipState& chip, Operation& op, std::uint8
   }
 }
 // AGS may have ended by an error. kTransport, kNotDetected, kCorrupted.
-inline Result<void> Procedures::confirmed(ChipState& chip, Operation& op, std::uint8_t want) {
+inline Result<void> Procedures::take_instruction(ChipState& chip, Operation& op,
+                                                 std::uint8_t want) {
   if (!op.good_ || !chip.checks_all()) {
     return op.good_ ? Error::kNone : Error::kTransport;
   }
-  const Result<void> seen = look(op);
+  const Result<void> seen = take_status(op);
   const unsigned ended = want & regs::AGS::kMask;
   return seen && (op.status_.instruction() | ended) != want ? Error::kCorrupted : seen;
 }
@@ -100,30 +100,30 @@ inline Result<void> Procedures::switched_step(ChipState& chip, Operation& op,
   Result<void> done = op.good_ ? Error::kNone : Error::kTransport;
   switch (op.stage_) {
     case kRecover:
-      done = recovered(chip, op);
-      if (has_recovered(done, op)) {
-        add_word(chip, op, kFill);
+      done = take_recovery(chip, op);
+      if (recovery_is_over(done, op)) {
+        add_word(chip, op, kWord);
       }
       return done;
-    case kFill:    // the first bank
-    case kTake: {  // the second one
-      done = same(chip, op);
+    case kWord:
+    case kSecondWord: {
+      done = take_write(chip, op);
       if (done && !chip.config.single_bank) {
-        const bool first = op.stage_ == kFill;
-        add_confirmed(chip, op, first ? kSwitch : std::uint8_t{0}, first ? kSet : kStopped);
+        const bool first = op.stage_ == kWord;
+        add_confirmed(chip, op, first ? kSwitch : std::uint8_t{0}, first ? kSwitched : kStopped);
         return done;
       }
       break;
     }
-    case kSet:
-      done = confirmed(chip, op, kSwitch);
+    case kSwitched:
+      done = take_instruction(chip, op, kSwitch);
       if (done) {
-        add_word(chip, op, kTake);
+        add_word(chip, op, kSecondWord);
         op.plan_.pause_us = kSwitchUs;
       }
       return done;
     default:  // kStopped; after two changes SWBANK is 0 again (page 33)
-      done = confirmed(chip, op, 0);
+      done = take_instruction(chip, op, 0);
       break;
   }
   chip.recover_first = !done;
@@ -134,10 +134,10 @@ inline Result<void> Procedures::switched_step(ChipState& chip, Operation& op,
 
 // With SpiCheck::kFull three steps, otherwise one.
 inline void Procedures::add_held(ChipState& chip, Operation& op) {
-  add_confirmed(chip, op, kHoldAndAgs, kSet);
+  add_confirmed(chip, op, kHoldAndAgs, kHold);
   chip.set_waits(ChipState::kForActuator, chip.checks_all());
   if (!chip.checks_all()) {
-    add_word(chip, op, kFill);
+    add_word(chip, op, kWord);
     add_release(chip, op, {});
     op.stage_ = kStart;
   }
@@ -158,58 +158,75 @@ inline void Procedures::add_release(ChipState& chip, Operation& op, const Result
 }
 
 inline Result<void> Procedures::held_step(ChipState& chip, Operation& op, std::uint32_t now_us) {
-  Result<void> done = op.good_ ? Error::kNone : Error::kTransport;
   switch (op.stage_) {
-    case kSet:
-      done = confirmed(chip, op, kHoldAndAgs);
-      if (done) {
-        add_word(chip, op, kFill);
-      } else {
-        add_release(chip, op, done);
-      }
+    case kHold:
+      take_hold(chip, op);
       return {};
-    case kFill:
-      add_release(chip, op, same(chip, op));
+    case kWord:
+      add_release(chip, op, take_write(chip, op));
       return {};
-    case kPoll: {  // the other bank
-      const std::uint8_t* is = received(op, 1) + 2;
-      done = look(op);
-      if (!done) {
-        return done;
-      }
-      const bool differs = !equal(is, op.request_.data(), static_cast<unsigned>(op.count_));
-      // One disturbed reading is not the other bank.
-      const bool again = differs && chip.checks_all() && (op.bad_ & kDiffers) == 0;
-      op.bad_ &= ~kDiffers;
-      if (differs && !again) {
-        if (op.bad_ >= kMostWords * kOneWord) {
-          return Error::kCorrupted;
-        }
-        op.bad_ += kOneWord;
-        add_held(chip, op);
-      } else if (again || !op.limit_.over) {
-        op.bad_ |= differs ? kDiffers : 0;
-        add_other(op, now_us);
-      }  // otherwise both banks hold the word
-      return {};
-    }
+    case kOtherWord:
+      return take_other_word(chip, op, now_us);
     case kStart:
-      if (!done) {
-        add_release(chip, op, done);
+      if (!op.good_) {
+        add_release(chip, op, Error::kTransport);
         return {};
       }
       break;
-    default:  // kStopped: the release
-      chip.set_waits(ChipState::kForActuator, false);
-      if (done) {
-        done = confirmed(chip, op, regs::AGS::encode<1>());
-      }
-      if (op.cause_) {
-        op.cause_ = done;
-      }
-      // A disturbed byte of 0xF4 may have started an access.
-      chip.control.stray = chip.control.stray || (chip.checks_all() && !op.cause_);
+    default:  // kStopped
       break;
+  }
+  return take_release(chip, op, now_us);
+}
+
+// HOLDBANK was written.
+inline void Procedures::take_hold(ChipState& chip, Operation& op) {
+  const Result<void> held = take_instruction(chip, op, kHoldAndAgs);
+  if (held) {
+    add_word(chip, op, kWord);
+  } else {
+    add_release(chip, op, held);
+  }
+}
+
+// The word was read again: has the end of a frame switched the banks?
+inline Result<void> Procedures::take_other_word(ChipState& chip, Operation& op,
+                                                std::uint32_t now_us) {
+  const std::uint8_t* is = received(op, 1) + 2;
+  const Result<void> seen = take_status(op);
+  if (!seen) {
+    return seen;
+  }
+  const bool differs = !bytes_equal(is, op.request_.data(), static_cast<unsigned>(op.count_));
+  // One disturbed reading is not the other bank.
+  const bool again = differs && chip.checks_all() && !op.differs_;
+  op.differs_ = false;
+  if (differs && !again) {
+    if (op.words_ >= kMostWords) {
+      return Error::kCorrupted;
+    }
+    ++op.words_;
+    add_held(chip, op);
+  } else if (again || !op.limit_.over) {
+    op.differs_ = differs;
+    add_other_word(op, now_us);
+  }  // otherwise both banks hold the word
+  return {};
+}
+
+// The bank was released; without SpiCheck::kFull in the step that has written the word.
+inline Result<void> Procedures::take_release(ChipState& chip, Operation& op, std::uint32_t now_us) {
+  Result<void> done = op.good_ ? Error::kNone : Error::kTransport;
+  if (op.stage_ == kStopped) {
+    chip.set_waits(ChipState::kForActuator, false);
+    if (done) {
+      done = take_instruction(chip, op, regs::AGS::encode<1>());
+    }
+    if (op.cause_) {
+      op.cause_ = done;
+    }
+    // A disturbed byte of 0xF4 may have started an access.
+    chip.control.stray = chip.control.stray || (chip.checks_all() && !op.cause_);
   }
   if (done && chip.watch.held) {
     chip.watch.news_us = now_us;
@@ -217,22 +234,21 @@ inline Result<void> Procedures::held_step(ChipState& chip, Operation& op, std::u
   // Words that have waited since a failed proof were dropped by one 0x02; the next read does it
   // twice.
   chip.watch.held = !done || (chip.watch.held && chip.proves_release());
-  done = op.cause_;
-  if (done && op.bad_ != 0) {
+  if (op.cause_ && op.both_banks_) {
     op.limit_.begin(now_us, chip.frame_us + chip.pitch_us);
-    add_other(op, now_us);
+    add_other_word(op, now_us);
   }
-  return done;
+  return op.cause_;
 }
 
 // Reads until the word differs, which shows the other bank, also behind the word for that one: a
 // frame may have ended between the reading and HOLDBANK, and the word is in the first bank again.
 // If no reading differs, both banks hold the word. The status makes the two frames as long as the
 // count of polls expects.
-inline void Procedures::add_other(Operation& op, std::uint32_t now_us) {
+inline void Procedures::add_other_word(Operation& op, std::uint32_t now_us) {
   op.limit_.note(now_us);
-  op.stage_ = kPoll;
-  add_read(op, static_cast<std::uint8_t>(op.at_), op.count_);
+  op.stage_ = kOtherWord;
+  add_read(op, op.address_, op.count_);
   mb4_cyclic_add_status(&op.plan_);
 }
 

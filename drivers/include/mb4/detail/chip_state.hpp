@@ -37,7 +37,7 @@ struct ControlState {
   std::uint8_t readable = 0;     // registers that a finished read has left in RDATA
   std::uint8_t count = 0;        // registers of this access, 1..64
   std::uint8_t first = 0;        // SpiCheck::kFull: the first of `readable`
-  bool waits = false;            // ... and take() has not fetched them
+  bool waits = false;            // take() has not fetched them
   bool armed = false;            // 0xE2..0xE5 may hold another request than the one at rest
   bool biss_b = false;           // one instruction runs the whole access, without frames
   bool ended = false;            // REGEND = 1: an access has ended, and nothing has begun since

@@ -28,20 +28,16 @@ static_assert(kLastPart + kPartBytes >= kImageFirst + kImageBytes);
   return address == kImageFirst ? kMiddlePart - kImageFirst : kPartBytes;
 }
 
-// Purpose of the operation: Operation::count_.
-inline constexpr std::size_t kComparesOnly = 0;
-inline constexpr std::size_t kConfigures = 1;
-inline constexpr std::size_t kResets = 2;
-
-// In doubt() it is the proof. One that has begun before is none: what it has read may be older.
+// While the chip is in doubt it is the proof. One that has begun before is none: what it has read
+// may be older.
 inline void Procedures::plan_verify(ChipState& chip, Operation& op) {
   begin(chip, op, chip.in_doubt() ? proof_step : configuration_step);
-  op.count_ = kComparesOnly;
-  op.bad_ = chip.request_is_away() ? 1 : 0;
+  op.purpose_ = Operation::Purpose::kCompare;
+  op.request_away_ = chip.request_is_away();
   add_compared(op, kLastPart);
 }
 
-// An operation has ended in doubt(): the configuration is compared, and a status says whether
+// An operation has ended in doubt: the configuration is compared, and a status says whether
 // automatic frames run as they should.
 inline void Procedures::plan_proof(ChipState& chip, Operation& op, const Result<void>& cause) {
   plan_verify(chip, op);
@@ -83,10 +79,11 @@ inline void Procedures::plan_configure(ChipState& chip, Operation& op, const Con
   chip.forget();
   chip.take(config);
   begin(chip, op, configuration_step);
-  op.count_ = kConfigures;
+  op.purpose_ = Operation::Purpose::kConfigure;
+  op.request_away_ = false;
   op.limit_.timeout_us = before_us > chip.recovery_us() ? before_us : chip.recovery_us();
   if (needs_revision_y(config)) {
-    op.stage_ = kDelays;
+    op.stage_ = kIdentity;
     add_read(op, regs::kAddrRevision, 2);
   } else {
     add_image(chip, op);
@@ -99,13 +96,14 @@ inline void Procedures::plan_reset(ChipState& chip, Operation& op) {
   chip.image[regs::kAddrSlaveloc5 - kImageFirst] = regs::kResetSlaveloc5;
   chip.interface_byte = 0;
   begin(chip, op, configuration_step);
-  op.count_ = kResets;
+  op.purpose_ = Operation::Purpose::kReset;
+  op.request_away_ = false;
   add_image(chip, op);
 }
 
 // BREAK, clock source and interface; then two parts.
 inline void Procedures::add_image(ChipState& chip, Operation& op) {
-  op.stage_ = kFill;
+  op.stage_ = kImage;
   mb4_plan_add(&op.plan_, 3, MB4_CYCLIC_INSTRUCT, regs::BREAK::encode<1>(), chip.interface_byte);
   for (const std::uint8_t part : {std::uint8_t{kImageFirst}, kMiddlePart}) {
     add_bytes(op, part, &chip.image[part - kImageFirst], part_bytes(part));
@@ -114,7 +112,7 @@ inline void Procedures::add_image(ChipState& chip, Operation& op) {
 
 inline void Procedures::add_compared(Operation& op, std::uint8_t address) {
   op.stage_ = kStart;
-  op.at_ = address;
+  op.address_ = address;
   add_read(op, address, part_bytes(address));
   if (address == kLastPart) {  // a bus that stores nothing is no chip
     mb4_plan_rx(&op.plan_, static_cast<std::uint8_t>(op.plan_.frames -
@@ -124,14 +122,14 @@ inline void Procedures::add_compared(Operation& op, std::uint8_t address) {
 
 inline Result<void> Procedures::configuration_step(ChipState& chip, Operation& op,
                                                    std::uint32_t /*now_us*/) {
-  const Result<void> done = configure(chip, op);
-  const bool compares = op.count_ == kComparesOnly;
+  const Result<void> done = configuration_stage(chip, op);
+  const bool compares = op.purpose_ == Operation::Purpose::kCompare;
   if (compares && (done.error() == Error::kNotDetected || done.error() == Error::kVerify)) {
     // Reads of a chip that is configured otherwise may bring the word of another slave.
     chip.configured = false;
     chip.stopped();
   }
-  if (done && op.plan_.frames == 0 && op.count_ == kConfigures) {
+  if (done && op.plan_.frames == 0 && op.purpose_ == Operation::Purpose::kConfigure) {
     chip.configured = true;
     // Without a system clock EOT is 0 too; then BREAK changes nothing.
     chip.recover_first = !op.status_.idle();
@@ -151,52 +149,81 @@ inline Result<void> Procedures::configuration_step(ChipState& chip, Operation& o
                                                                           : regs::kAddrSvalidLo);
 }
 
-inline Result<void> Procedures::configure(ChipState& chip, Operation& op) {
-  const bool compares = op.count_ == kComparesOnly;
-  op.bad_ |= chip.request_is_away() ? 1U : 0U;
+inline Result<void> Procedures::configuration_stage(ChipState& chip, Operation& op) {
+  const bool compares = op.purpose_ == Operation::Purpose::kCompare;
+  op.request_away_ = op.request_away_ || chip.request_is_away();
   if (!op.good_ || (compares && !chip.configured)) {
     return op.good_ ? Error::kWrongMode : Error::kTransport;
   }
-  if (op.stage_ == kFill) {
-    constexpr std::size_t kBefore = kLastPart - kImageFirst;
-    // BREAK may have cut a frame; the next one comes after the slaves' timeout.
-    op.plan_.pause_us = op.count_ == kConfigures ? op.limit_.timeout_us : 0;
-    add_bytes(op, kLastPart, chip.image.data() + kBefore, kImageBytes - kBefore);
-    add_compared(op, kLastPart);
-    return {};
+  switch (op.stage_) {
+    case kIdentity:
+      return take_identity(chip, op);
+    case kImage:
+      return take_image(chip, op);
+    case kWitness:
+      return take_configuration_end(chip, op);
+    default:
+      return take_compared(chip, op);
   }
-  if (op.stage_ == kProof) {
-    const Result<void> seen = look(op);
-    if (seen && interface_changed(chip, op)) {
-      return ErrorInfo::at_register(Error::kVerify, regs::kAddrIface);
-    }
-    return seen && op.count_ == kConfigures ? at_rest(chip, op.status_) : seen;
-  }
-  const bool identity = op.stage_ == kDelays;
+}
+
+// `version` is that of an iC-MB4.
+[[nodiscard]] inline bool is_device(std::uint8_t version) {
+  return version == static_cast<std::uint8_t>(regs::DeviceVersion::kIcMb4);
+}
+
+// REVISION and VERSION were read.
+inline Result<void> Procedures::take_identity(ChipState& chip, Operation& op) {
   const std::uint8_t* is = received(op) + 2;
-  const bool last = op.at_ == kLastPart;
-  const unsigned version = identity ? 1 : unsigned{regs::kAddrVersion} - kLastPart;
-  if ((identity || last) && is[version] != static_cast<std::uint8_t>(regs::DeviceVersion::kIcMb4)) {
+  if (!is_device(is[1])) {
     return Error::kNotDetected;
   }
-  if (identity) {
-    const ErrorInfo old = check_revision(is[0]);
-    if (old.code == Error::kNone) {
-      add_image(chip, op);
-    }
-    return old;
+  const ErrorInfo old = check_revision(is[0]);
+  if (old.code == Error::kNone) {
+    add_image(chip, op);
   }
-  if (const unsigned at = differs_at(chip, op.at_, is, part_bytes(op.at_), op.bad_ != 0);
+  return old;
+}
+
+// All but the last part was written. BREAK may have cut a frame; the next one comes after the
+// slaves' timeout.
+inline Result<void> Procedures::take_image(ChipState& chip, Operation& op) {
+  constexpr std::size_t kBefore = kLastPart - kImageFirst;
+  op.plan_.pause_us =
+      op.purpose_ == Operation::Purpose::kConfigure ? op.limit_.timeout_us : std::uint32_t{0};
+  add_bytes(op, kLastPart, chip.image.data() + kBefore, kImageBytes - kBefore);
+  add_compared(op, kLastPart);
+  return {};
+}
+
+// A part was read.
+inline Result<void> Procedures::take_compared(ChipState& chip, Operation& op) {
+  const std::uint8_t* is = received(op) + 2;
+  const bool last = op.address_ == kLastPart;
+  if (last && !is_device(is[regs::kAddrVersion - kLastPart])) {
+    return Error::kNotDetected;
+  }
+  if (const unsigned at =
+          differs_at(chip, op.address_, is, part_bytes(op.address_), op.request_away_);
       at != kNowhere) {
     return ErrorInfo::at_register(Error::kVerify, static_cast<std::uint8_t>(at));
   }
-  if (op.at_ == kMiddlePart) {
+  if (op.address_ == kMiddlePart) {
     add_witness(op);
-    op.stage_ = kProof;
+    op.stage_ = kWitness;
   } else {
     add_compared(op, last ? std::uint8_t{kImageFirst} : kMiddlePart);
   }
   return {};
+}
+
+// All is as it was written; the witness was read.
+inline Result<void> Procedures::take_configuration_end(ChipState& chip, Operation& op) {
+  const Result<void> seen = take_status(op);
+  if (seen && interface_changed(chip, op)) {
+    return ErrorInfo::at_register(Error::kVerify, regs::kAddrIface);
+  }
+  return seen && op.purpose_ == Operation::Purpose::kConfigure ? at_rest(chip, op.status_) : seen;
 }
 
 }  // namespace mb4::detail

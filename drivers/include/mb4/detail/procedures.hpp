@@ -27,27 +27,49 @@ namespace mb4::detail {
 // it adds no frame. A program has only the procedures that it begins. The blocking calls are loops
 // over the same steps (Chip::run()).
 struct Procedures {
-  // Where an operation is: what the frames do that are made now.
+  // Where an operation is: what the frames do that are made now. Those of one kind of operation
+  // have the same numbers as those of another one.
   enum Stage : std::uint8_t {
-    kRecover,    // send BREAK; the slaves need their timeout afterwards
-    kRestarted,  // an access: BREAK has stopped automatic frames, and they run again
-    kStart,      // the first frames of the operation's own
-    kPoll,       // read the status until what was started has ended
-    kPollAgain,  // an access: a second read of the status must say "ended" too
-    kLines,      // read the lines until SL is 1
-    kFill,       // an access: RDATA or IDS; an actuator: its word; all registers
-    kCompare,    // an access: RDATA or IDS is read back
-    kSet,        // an access: 0xE2..0xE5; an actuator: 0xF4
-    kNextFrame,  // an access: the next frame
-    kDelays,     // INIT: what it has measured; a configuration: REVISION, VERSION
-    kClear,      // SVALID = 0
-    kTake,       // an access: RDATA; a single frame: its data; an actuator: the other bank's word
-    kTakeAgain,  // ... once more
-    kProof,      // a single frame, a configuration: the status after what was read
-    kFirst,      // an access that has ended: RDATA1
-    kRest,       // ... the request at rest
-    kStopped,    // BREAK; the result is known
-    kBlank       // a single frame: a word is all 0; read the lines until SL is 1
+    kRecover,  // BREAK; the slaves need their timeout afterwards
+    kStart,    // the first frames of the operation's own
+    kPoll,     // the status, until what was started has ended
+    kLines,    // the lines, until SL is 1
+    kClear,    // SVALID = 0
+    kStopped,  // BREAK, or what else ends the operation; the result is known
+    kOwn,
+    // An access.
+    kRestarted = kOwn,  // BREAK has stopped automatic frames, and they run again
+    kData,              // RDATA or IDS is written
+    kDataBack,          // RDATA or IDS is read back
+    kRequest,           // 0xE2..0xE5
+    kNextFrame,         // the next frame
+    kRegisters,         // RDATA is read
+    kRegistersAgain,    // RDATA is read once more
+    kPollAgain,         // a second read of the status must say "ended" too
+    kFirst,             // it has ended: RDATA1
+    kRest,              // it has ended: the request at rest
+    // INIT.
+    kProtocol = kOwn,  // SCDATA1 and SCDATA5 = 0, REGVERS
+    kEmptied,          // the same without REGVERS
+    kDelays,           // what it has measured
+    kBadWord,          // the frame at its end: a word that was bad
+    // A configuration.
+    kIdentity = kOwn,  // REVISION, VERSION
+    kImage,            // all registers are written
+    kWitness,          // the status after what was read
+    // A single frame.
+    kWords = kOwn,  // its data
+    kWordsAgain,    // its data once more
+    kFrameStatus,   // the status after what was read
+    kBlank,         // a word is all 0; the lines until SL is 1
+    // AGS = 0 or BREAK.
+    kStopStatus = kOwn,  // the status after it
+    // An actuator.
+    kHold = kOwn,  // HOLDBANK = 1
+    kWord,         // its word
+    kOtherWord,    // the word of the other bank
+    kSwitched,     // SWBANK = 1
+    kSecondWord    // the word, in the second bank
   };
 
   // What came back is here. True: the operation has ended. False: there are other frames to make.
@@ -115,19 +137,19 @@ struct Procedures {
     chip.stopped();
     chip.restart = restart;
     chip.recover_first = true;
-    op.request_[0] = instruction;
+    op.instruction_ = instruction;
     add_stopping(chip, op);
   }
   // BREAK also ends what the request has begun. With SpiCheck::kFull the status follows: 0xF4 is 0.
   static void add_stopping(const ChipState& chip, Operation& op) {
-    const std::uint8_t instruction = op.request_[0];
+    const std::uint8_t instruction = op.instruction_;
     op.stage_ = kStopped;
     add_instruction(op, instruction);
     if (instruction != 0 && chip.control.armed) {
       add_rest(chip, op);
     }
     if (chip.checks_all()) {
-      op.stage_ = kProof;
+      op.stage_ = kStopStatus;
       mb4_cyclic_add_status(&op.plan_);
     }
   }
@@ -166,7 +188,7 @@ struct Procedures {
  private:
   // Times that a step which may fail is tried, one after the other. One disturbed status must not
   // stop an access, and automatic frames with it.
-  static constexpr std::uint32_t kBadLooks = 3;
+  static constexpr std::uint32_t kMostFailures = 3;
 
   // ---- Frames ----
 
@@ -183,13 +205,13 @@ struct Procedures {
     op.result_ = Error::kBusy;
     op.stage_ = kStart;
     op.at_ = 0;
-    op.bad_ = 0;
+    op.failures_ = 0;
     op.cause_ = {};
   }
 
   // BREAK, at kRecover. With SpiCheck::kFull it also writes 0xF5, the register after 0xF4: the
   // failed transfer may have been a read of the status that reached the chip as a write; then
-  // SVALID = 0, and a witness follows. Afterwards recovered().
+  // SVALID = 0, and a witness follows. Afterwards take_recovery().
   [[gnu::noinline]] static void add_recovery(ChipState& chip, Operation& op) {
     op.stage_ = kRecover;
     chip.stopped();
@@ -211,15 +233,15 @@ struct Procedures {
   // kTransport; with SpiCheck::kFull kNotDetected; kCorrupted: 0xF4 or SVALID is not 0, 0xF5 is
   // not as it was written, or the request at rest does not stand (the next call sends it again);
   // kTimeout: EOT = 0, a frame still runs, or there is no system clock.
-  [[gnu::noinline]] static Result<void> recovered(ChipState& chip, Operation& op) {
+  [[gnu::noinline]] static Result<void> take_recovery(ChipState& chip, Operation& op) {
     if (chip.checks_all()) {
-      const Result<void> seen = look(op);
+      const Result<void> seen = take_status(op);
       const bool first = op.made_ != 1;
       if (!seen) {
         return seen;
       }
-      if (first && chip.control.armed && !rests(chip, op, 1)) {
-        doubt(chip);
+      if (first && chip.control.armed && !rest_stands(chip, op, 1)) {
+        begin_doubt(chip);
         return Error::kCorrupted;
       }
       if (op.status_.instruction() != 0 || (first && interface_changed(chip, op))) {
@@ -245,7 +267,7 @@ struct Procedures {
     return {};
   }
   // Nothing of a recovery remains to be made.
-  static bool has_recovered(const Result<void>& done, const Operation& op) {
+  static bool recovery_is_over(const Result<void>& done, const Operation& op) {
     return done && op.stage_ != kRecover;
   }
 
@@ -255,7 +277,7 @@ struct Procedures {
 
   // AGS = 1. With SpiCheck::kFull the words of both banks are dropped, because a disturbed byte
   // before may have switched them. What drops them may reach the request, or 0xF5, by one bit of
-  // its address: both are read back, with a witness: confirmed_start().
+  // its address: both are read back, with a witness: take_start().
   static void add_start(const ChipState& chip, Operation& op) {
     add_instruction(op, regs::AGS::encode<1>());
     if (chip.checks_all()) {
@@ -268,10 +290,10 @@ struct Procedures {
   // add_start() was made. kTransport, kNotDetected; kCorrupted: the frames do not run, or the
   // clears have changed something else; then the next call begins with BREAK and the request at
   // rest.
-  [[gnu::noinline]] static Result<void> confirmed_start(ChipState& chip, Operation& op) {
-    const Result<void> done = confirmed(chip, op, regs::AGS::encode<1>());
-    if (done && chip.checks_all() && (interface_changed(chip, op) || !rests(chip, op, 1))) {
-      doubt(chip);
+  [[gnu::noinline]] static Result<void> take_start(ChipState& chip, Operation& op) {
+    const Result<void> done = take_instruction(chip, op, regs::AGS::encode<1>());
+    if (done && chip.checks_all() && (interface_changed(chip, op) || !rest_stands(chip, op, 1))) {
+      begin_doubt(chip);
       chip.control.armed = true;
       return Error::kCorrupted;
     }
@@ -292,7 +314,7 @@ struct Procedures {
       *tx++ = *data++;
     }
   }
-  // Reads back what it writes: written().
+  // Reads back what it writes: take_readback().
   [[gnu::noinline]] static void add_proven(Operation& op, std::uint8_t address,
                                            const std::uint8_t* data, std::size_t size) {
     add_bytes(op, address, data, size);
@@ -312,7 +334,9 @@ struct Procedures {
   // Something that was read back differs. The write may have reached another register, among them
   // the configuration, and a read whose opcode was disturbed is an instruction (0x03 and 0x07): no
   // position is read until the operation has compared all and seen 0xF4, in finish().
-  static void doubt(ChipState& chip) { chip.set_waits(ChipState::kForProof, chip.checks_all()); }
+  static void begin_doubt(ChipState& chip) {
+    chip.set_waits(ChipState::kForProof, chip.checks_all());
+  }
   // The first of `size` registers that is not as it was written, of those that are compared while a
   // control communication is `running`.
   static constexpr unsigned kNowhere = 0x100;
@@ -336,7 +360,7 @@ struct Procedures {
            (address < 0xE0 || address > 0xE1) && address != 0xEE &&
            address != regs::kAddrRevision && address != regs::kAddrVersion;
   }
-  // With SpiCheck::kFull it reads back what it writes: same().
+  // With SpiCheck::kFull it reads back what it writes: take_write().
   [[gnu::noinline]] static void add_write(const ChipState& chip, Operation& op,
                                           std::uint8_t address, const std::uint8_t* data,
                                           std::size_t size) {
@@ -361,7 +385,8 @@ struct Procedures {
   }
   // The frame that was made with `behind` frames after it has read the request at rest, and the
   // registers behind it as they were written.
-  [[gnu::noinline]] static bool rests(const ChipState& chip, const Operation& op, unsigned behind) {
+  [[gnu::noinline]] static bool rest_stands(const ChipState& chip, const Operation& op,
+                                            unsigned behind) {
     return differs_at(chip, regs::kAddrRegadr, received(op, behind) + 2, kRestBytes, false) ==
            kNowhere;
   }
@@ -370,11 +395,11 @@ struct Procedures {
   // another register: it is sent again, and op.cause_ becomes kCorrupted. If that fails, or a
   // transfer, control.armed stays, which makes the next call send it; until then nothing may start
   // what was asked for once more.
-  [[gnu::noinline]] static bool rested(ChipState& chip, Operation& op) {
-    const bool set = op.good_ && (!chip.checks_all() || rests(chip, op, 0));
-    if (!set && op.good_ && ++op.bad_ < kBadLooks) {
-      if (op.bad_ == 1) {
-        doubt(chip);
+  [[gnu::noinline]] static bool take_rest(ChipState& chip, Operation& op) {
+    const bool set = op.good_ && (!chip.checks_all() || rest_stands(chip, op, 0));
+    if (!set && op.good_ && ++op.failures_ < kMostFailures) {
+      if (op.failures_ == 1) {
+        begin_doubt(chip);
         add_read(op, regs::kAddrRegadr, kRestBytes);
         return false;
       }
@@ -409,7 +434,7 @@ struct Procedures {
     mb4_cyclic_add_status(&op.plan_);
   }
 
-  static void again(Operation& op, std::uint32_t now_us) {
+  static void add_next_poll(Operation& op, std::uint32_t now_us) {
     op.limit_.note(now_us);
     add_poll(op);
   }
@@ -428,7 +453,7 @@ struct Procedures {
   }
 
   // The status of the last frame. kTransport; kNotDetected.
-  [[gnu::noinline]] static Result<void> look(Operation& op) {
+  [[gnu::noinline]] static Result<void> take_status(Operation& op) {
     if (!op.good_) {
       return Error::kTransport;
     }
@@ -438,8 +463,8 @@ struct Procedures {
     return op.status_.plausible() ? Error::kNone : Error::kNotDetected;
   }
 
-  [[gnu::noinline]] static bool equal(const std::uint8_t* one, const std::uint8_t* other,
-                                      unsigned size) {
+  [[gnu::noinline]] static bool bytes_equal(const std::uint8_t* one, const std::uint8_t* other,
+                                            unsigned size) {
     for (; size > 0; --size) {
       if (*one++ != *other++) {
         return false;
@@ -449,13 +474,14 @@ struct Procedures {
   }
 
   // What was read, with a witness behind it, has come from the chip, and nothing but a read has
-  // gone there. The frame of the witness is taken away. kNotDetected; kCorrupted, with doubt().
-  [[gnu::noinline]] static Result<void> witnessed(ChipState& chip, Operation& op) {
-    const Result<void> seen = look(op);
+  // gone there. The frame of the witness is taken away. kNotDetected; kCorrupted, with
+  // begin_doubt().
+  [[gnu::noinline]] static Result<void> take_witness(ChipState& chip, Operation& op) {
+    const Result<void> seen = take_status(op);
     if (!seen) {
       // 0x05 may have become 0x07, which writes 0 to 0xF4 and 0xF5.
       if (op.good_) {
-        doubt(chip);
+        begin_doubt(chip);
       }
       return seen;
     }
@@ -465,44 +491,45 @@ struct Procedures {
     const bool changed = other || interface_changed(chip, op);
     --op.made_;
     if (changed) {
-      doubt(chip);
+      begin_doubt(chip);
     }
     return changed ? Error::kCorrupted : Error::kNone;
   }
 
-  // With SpiCheck::kFull: witnessed() and equals(), beside automatic frames written(). kTransport.
-  [[gnu::noinline]] static Result<void> same(ChipState& chip, Operation& op) {
+  // With SpiCheck::kFull: take_witness() and readback_equals(), beside automatic frames
+  // take_readback(). kTransport.
+  [[gnu::noinline]] static Result<void> take_write(ChipState& chip, Operation& op) {
     if (!op.good_ || !chip.checks_all()) {
       return op.good_ ? Error::kNone : Error::kTransport;
     }
-    const Result<void> seen = witnessed(chip, op);
-    return !seen ? seen : chip.automatic ? written(chip, op) : equals(op);
+    const Result<void> seen = take_witness(chip, op);
+    return !seen ? seen : chip.automatic ? take_readback(chip, op) : readback_equals(op);
   }
-  // equals(), and with SpiCheck::kFull doubt() where it differs.
-  static Result<void> written(ChipState& chip, const Operation& op) {
-    const Result<void> result = equals(op);
+  // readback_equals(), and with SpiCheck::kFull begin_doubt() where it differs.
+  static Result<void> take_readback(ChipState& chip, const Operation& op) {
+    const Result<void> result = readback_equals(op);
     if (result.error() == Error::kCorrupted) {
-      doubt(chip);
+      begin_doubt(chip);
     }
     return result;
   }
   // The last two frames belong together: the second has read what the first has written or read.
   // kTransport; kCorrupted: it differs.
-  [[gnu::noinline]] static Result<void> equals(const Operation& op) {
+  [[gnu::noinline]] static Result<void> readback_equals(const Operation& op) {
     if (!op.good_) {
       return Error::kTransport;
     }
     const std::uint8_t first = static_cast<std::uint8_t>(op.made_ - 2);
     const std::uint8_t* before =
         mb4_plan_reads(&op.plan_, first) ? received(op, 1) : mb4_plan_tx(&op.plan_, first);
-    return equal(before + 2, received(op) + 2, op.plan_.size[first] - 2U) ? Error::kNone
-                                                                          : Error::kCorrupted;
+    return bytes_equal(before + 2, received(op) + 2, op.plan_.size[first] - 2U) ? Error::kNone
+                                                                                : Error::kCorrupted;
   }
 
   // After a good transfer: SL of the channels in use is 1, as it must be after the slaves' timeout.
   // Otherwise it looks again, for a while. kLineError: a line is stuck low.
-  [[gnu::noinline]] static Result<void> lines(const ChipState& chip, Operation& op,
-                                              std::uint32_t now_us) {
+  [[gnu::noinline]] static Result<void> take_lines(const ChipState& chip, Operation& op,
+                                                   std::uint32_t now_us) {
     if ((received(op)[MB4_CYCLIC_LINES] & chip.watch.lines) == chip.watch.lines) {
       return {};
     }
@@ -521,8 +548,8 @@ struct Procedures {
 
   static Result<void> start_step(ChipState& chip, Operation& op, std::uint32_t now_us) {
     const bool breaks = op.stage_ == kRecover;
-    const Result<void> done = breaks ? recovered(chip, op) : confirmed_start(chip, op);
-    if (breaks && has_recovered(done, op)) {
+    const Result<void> done = breaks ? take_recovery(chip, op) : take_start(chip, op);
+    if (breaks && recovery_is_over(done, op)) {
       add_start(chip, op);
     } else if (done && !breaks) {
       chip.started(now_us);
@@ -536,14 +563,14 @@ struct Procedures {
     if (!chip.checks_all()) {
       return {};
     }
-    const Result<void> seen = look(op);
+    const Result<void> seen = take_status(op);
     // A disturbed address makes an instruction of the bytes: 0xF1 and 0xF3 differ in one bit.
     const bool other = op.status_.instruction() != 0;
     if (!seen || ((op.status_.valid_flags() & chip.sensor_flags) == 0 && !other)) {
       return seen;
     }
     if (op.made_ == 1 || other) {
-      doubt(chip);
+      begin_doubt(chip);
       return Error::kCorrupted;
     }
     mb4_cyclic_add_status(&op.plan_);
@@ -552,22 +579,23 @@ struct Procedures {
 
   // An instruction that has not come, or come as another one, is sent once more.
   static Result<void> stop_step(ChipState& chip, Operation& op, std::uint32_t /*now_us*/) {
-    const bool rests = op.request_[0] != 0 && chip.control.armed;
-    if (op.stage_ == kProof && op.good_) {
-      const Result<void> seen = look(op);
+    const bool armed = op.instruction_ != 0 && chip.control.armed;
+    if (op.stage_ == kStopStatus && op.good_) {
+      const Result<void> seen = take_status(op);
       if (!seen || op.status_.instruction() != 0) {
-        if (op.at_ != 0) {
+        if (op.failures_ != 0) {
           return seen ? Error::kCorrupted : seen;
         }
-        op.at_ = 1;
+        op.failures_ = 1;
         add_stopping(chip, op);
         return {};
       }
       --op.made_;
+      op.failures_ = 0;
       op.stage_ = kStopped;
     }
-    if (rests) {
-      return rested(chip, op) ? op.cause_ : Result<void>();
+    if (armed) {
+      return take_rest(chip, op) ? op.cause_ : Result<void>();
     }
     return op.good_ ? Error::kNone : Error::kTransport;
   }
@@ -584,52 +612,114 @@ struct Procedures {
   static Result<void> initialize_activate_step(ChipState& chip, Operation& op,
                                                std::uint32_t now_us);
   static Result<void> look_step(ChipState& chip, Operation& op, std::uint32_t now_us);
-  // Parts of configuration.hpp, initialization.hpp,
+  // Each stage has a function. One that is called from one place only becomes part of its caller:
+  // this takes less flash and less stack on small cores. Parts of configuration.hpp,
   static void add_image(ChipState& chip, Operation& op);
   static void add_compared(Operation& op, std::uint8_t address);
   static void plan_proof(ChipState& chip, Operation& op, const Result<void>& cause);
-  static Result<void> configure(ChipState& chip, Operation& op);
-  static void prepare(ChipState& chip, Operation& op);
+  [[gnu::always_inline]] static Result<void> configuration_stage(ChipState& chip, Operation& op);
+  [[gnu::always_inline]] static Result<void> take_identity(ChipState& chip, Operation& op);
+  [[gnu::always_inline]] static Result<void> take_image(ChipState& chip, Operation& op);
+  [[gnu::always_inline]] static Result<void> take_compared(ChipState& chip, Operation& op);
+  [[gnu::always_inline]] static Result<void> take_configuration_end(ChipState& chip, Operation& op);
+  // initialization.hpp,
+  static void add_preparation(ChipState& chip, Operation& op);
+  [[gnu::always_inline]] static Result<void> take_preparation(ChipState& chip, Operation& op);
+  [[gnu::always_inline]] static Result<void> take_init_start(ChipState& chip, Operation& op,
+                                                             std::uint32_t now_us);
+  [[gnu::always_inline]] static Result<void> take_init_status(ChipState& chip, Operation& op,
+                                                              std::uint32_t now_us);
+  [[gnu::always_inline]] static Result<void> take_init_lines(ChipState& chip, Operation& op,
+                                                             std::uint32_t now_us);
+  [[gnu::always_inline]] static Result<void> take_delay(ChipState& chip, Operation& op);
+  [[gnu::always_inline]] static Result<void> take_init_clear(ChipState& chip, Operation& op,
+                                                             std::uint32_t now_us);
+  static void add_delays(ChipState& chip, Operation& op);
   static void begin_look(ChipState& chip, Operation& op);
-  // ... single_frame.hpp,
+  [[gnu::always_inline]] static Result<void> take_look_status(ChipState& chip, Operation& op,
+                                                              std::uint32_t now_us);
+  [[gnu::always_inline]] static Result<void> take_look_lines(ChipState& chip, Operation& op,
+                                                             std::uint32_t now_us);
+  static void add_bad_words(ChipState& chip, Operation& op);
+  // single_frame.hpp,
   static void add_request_frame(Operation& op);
   static Result<void> await_frame(ChipState& chip, Operation& op, std::uint32_t now_us);
-  static Result<void> frame(ChipState& chip, Operation& op, std::uint32_t now_us);
-  static Result<void> frame_over(ChipState& chip, Operation& op);
-  static Result<void> frame_ended(ChipState& chip, Operation& op);
+  [[gnu::always_inline]] static Result<void> frame_stage(ChipState& chip, Operation& op,
+                                                         std::uint32_t now_us);
+  [[gnu::always_inline]] static Result<void> take_frame_recovery(ChipState& chip, Operation& op);
+  [[gnu::always_inline]] static Result<void> take_frame_end_status(ChipState& chip, Operation& op,
+                                                                   std::uint32_t now_us);
+  [[gnu::always_inline]] static Result<void> take_words(ChipState& chip, Operation& op);
+  static Result<void> take_words_status(ChipState& chip, Operation& op);
+  static Result<void> take_frame_status(ChipState& chip, Operation& op);
+  static Result<void> end_frame(ChipState& chip, Operation& op);
   static void add_stop(ChipState& chip, Operation& op, Error cause);
   static Result<void> stopped_step(ChipState& chip, Operation& op, std::uint32_t now_us);
-  // ... actuator.hpp,
+  // actuator.hpp,
   static void add_word(ChipState& chip, Operation& op, std::uint32_t stage);
   static void add_confirmed(ChipState& chip, Operation& op, std::uint8_t instruction,
                             std::uint32_t stage);
-  static Result<void> confirmed(ChipState& chip, Operation& op, std::uint8_t want);
+  static Result<void> take_instruction(ChipState& chip, Operation& op, std::uint8_t want);
   static void add_held(ChipState& chip, Operation& op);
   static void add_release(ChipState& chip, Operation& op, const Result<void>& cause);
-  static void add_other(Operation& op, std::uint32_t now_us);
-  // ... and access.hpp.
+  static void add_other_word(Operation& op, std::uint32_t now_us);
+  [[gnu::always_inline]] static void take_hold(ChipState& chip, Operation& op);
+  [[gnu::always_inline]] static Result<void> take_other_word(ChipState& chip, Operation& op,
+                                                             std::uint32_t now_us);
+  [[gnu::always_inline]] static Result<void> take_release(ChipState& chip, Operation& op,
+                                                          std::uint32_t now_us);
+  // and access.hpp.
   static void add_request(ChipState& chip, Operation& op);
   static bool looks_for_strays(const ChipState& chip);
-  static void add_back(ChipState& chip, Operation& op);
-  static Result<void> guarded(ChipState& chip, Operation& op);
-  static std::uint8_t part(const Operation& op);
-  static void add_take(ChipState& chip, Operation& op);
+  [[gnu::always_inline]] static bool stray_takes_request(const ChipState& chip);
+  static void add_data_back(ChipState& chip, Operation& op);
+  static Result<void> take_image_guard(ChipState& chip, Operation& op);
+  static std::uint8_t part_size(const Operation& op);
+  static bool part_is_back(const Operation& op);
+  static void add_registers(ChipState& chip, Operation& op);
   static void begin_access(ChipState& chip, Operation& op, bool biss_b);
   static void begin_command(ChipState& chip, Operation& op, const Command& command);
   static void begin_activate(ChipState& chip, Operation& op, std::uint8_t ids_1,
                              std::uint8_t ids_2);
   static void add_abort(ChipState& chip, Operation& op, const Result<void>& cause);
-  static void add_first(Operation& op);
+  static void add_first_register(Operation& op);
   static void add_end(const ChipState& chip, Operation& op);
-  static bool agrees(const ChipState& chip, const Operation& op, const Status& before);
-  static Result<void> not_begun(ChipState& chip, Operation& op, const Result<void>& cause);
+  static bool statuses_agree(const ChipState& chip, const Operation& op, const Status& before);
+  static Result<void> abandon_request(ChipState& chip, Operation& op, const Result<void>& cause);
   static void add_access(ChipState& chip, Operation& op);
-  static Result<void> access(ChipState& chip, Operation& op, std::uint32_t now_us);
-  static Result<void> poll(ChipState& chip, Operation& op, std::uint32_t now_us);
-  static Result<void> conclude(ChipState& chip, Operation& op);
-  static Result<void> taken(ChipState& chip, Operation& op);
-  static Result<void> not_taken(ChipState& chip);
-  static Result<void> ended(ChipState& chip, Operation& op);
+  static bool takes_failure(std::uint32_t stage);
+  [[gnu::always_inline]] static Result<void> access_stage(ChipState& chip, Operation& op,
+                                                          std::uint32_t now_us);
+  [[gnu::always_inline]] static Result<void> take_access_recovery(ChipState& chip, Operation& op,
+                                                                  std::uint32_t now_us);
+  [[gnu::always_inline]] static Result<void> take_access_restart(ChipState& chip, Operation& op,
+                                                                 std::uint32_t now_us);
+  [[gnu::always_inline]] static void take_data(ChipState& chip, Operation& op);
+  [[gnu::always_inline]] static Result<void> take_data_back(ChipState& chip, Operation& op);
+  [[gnu::always_inline]] static Result<void> take_request_back(ChipState& chip, Operation& op);
+  [[gnu::always_inline]] static Result<void> take_access_start(ChipState& chip, Operation& op,
+                                                               std::uint32_t now_us);
+  [[gnu::always_inline]] static Result<void> take_start_status(ChipState& chip, Operation& op);
+  [[gnu::always_inline]] static Result<void> take_access_status(ChipState& chip, Operation& op,
+                                                                std::uint32_t now_us);
+  [[gnu::always_inline]] static Result<void> take_regend(ChipState& chip, Operation& op,
+                                                         const Status& before,
+                                                         std::uint32_t now_us);
+  [[gnu::always_inline]] static void begin_register_timeout(ChipState& chip, Operation& op,
+                                                            std::uint32_t now_us);
+  [[gnu::always_inline]] static bool take_frame_end(ChipState& chip, Operation& op,
+                                                    std::uint32_t now_us);
+  [[gnu::always_inline]] static Result<void> conclude_access(ChipState& chip, Operation& op);
+  [[gnu::always_inline]] static Result<void> take_first_register(ChipState& chip, Operation& op);
+  [[gnu::always_inline]] static Result<void> take_end(ChipState& chip, Operation& op);
+  [[gnu::always_inline]] static Result<void> take_access_clear(ChipState& chip, Operation& op,
+                                                               std::uint32_t now_us);
+  [[gnu::always_inline]] static Result<void> take_registers(ChipState& chip, Operation& op);
+  [[gnu::always_inline]] static Result<void> take_registers_again(ChipState& chip, Operation& op);
+  [[gnu::always_inline]] static Result<void> take_access_abort(ChipState& chip, Operation& op);
+  static void keep_registers(ChipState& chip, Operation& op);
+  static Result<void> lose_registers(ChipState& chip);
+  static Result<void> end_access(ChipState& chip, Operation& op);
 };
 
 }  // namespace mb4::detail

@@ -77,23 +77,23 @@ inline void Procedures::plan_wait(ChipState& chip, Operation& op) {
 inline Result<void> Procedures::await_frame(ChipState& chip, Operation& op, std::uint32_t now_us) {
   if (op.stage_ == kStart) {
     op.limit_.begin(now_us, chip.frame_us);
-    again(op, now_us);
+    add_next_poll(op, now_us);
     return {};
   }
-  const Result<void> seen = look(op);
+  const Result<void> seen = take_status(op);
   if (seen && op.status_.idle() && op.status_.instruction_done()) {
     return chip.checks_all() && op.status_.instruction() != 0 ? Error::kCorrupted : Error::kNone;
   }
   if (seen && op.limit_.over) {
     add_stop(chip, op, Error::kTimeout);
   } else if (seen) {
-    again(op, now_us);
+    add_next_poll(op, now_us);
   }
   return seen;
 }
 
 inline Result<void> Procedures::frame_step(ChipState& chip, Operation& op, std::uint32_t now_us) {
-  const Result<void> done = frame(chip, op, now_us);
+  const Result<void> done = frame_stage(chip, op, now_us);
   if (op.plan_.frames == 0) {
     op.read_->code_ = static_cast<std::uint8_t>(done.error());
     op.read_->read_.told = done.ok();
@@ -101,68 +101,88 @@ inline Result<void> Procedures::frame_step(ChipState& chip, Operation& op, std::
   return done;
 }
 
-inline Result<void> Procedures::frame(ChipState& chip, Operation& op, std::uint32_t now_us) {
-  mb4_cyclic& read = op.read_->read_;
+inline Result<void> Procedures::frame_stage(ChipState& chip, Operation& op, std::uint32_t now_us) {
   if (!op.good_) {
     return Error::kTransport;
   }
   switch (op.stage_) {
-    case kRecover: {
-      const Result<void> done = recovered(chip, op);
-      if (has_recovered(done, op)) {
-        add_request_frame(op);
-      }
-      return done;
-    }
+    case kRecover:
+      return take_frame_recovery(chip, op);
     case kStart:
-    case kPoll: {
-      const Result<void> ended = await_frame(chip, op, now_us);
-      return ended && op.plan_.frames == 0 ? frame_over(chip, op) : ended;
-    }
-    case kTake:
-      read.fresh = mb4_cyclic_take(&read, &op.plan_, 0, mb4_cyclic_valid(&read), MB4_WITH_ALL);
-      mb4_cyclic_find_blank(&read, MB4_WITH_ALL);
-      if (!chip.checks_all() || read.flags == 0) {
-        return frame_ended(chip, op);  // SVALID is cleared already, or there is none
-      }
-      if (read.fresh == 0) {
-        add_poll(op);
-        op.stage_ = kProof;
-        return {};
-      }
-      op.stage_ = kTakeAgain;
-      mb4_cyclic_add_data(&read, &op.plan_, read.fresh, MB4_WITH_ALL);
-      mb4_cyclic_add_status(&op.plan_);
-      return {};
-    case kTakeAgain:
+    case kPoll:
+      return take_frame_end_status(chip, op, now_us);
+    case kWords:
+      return take_words(chip, op);
+    case kWordsAgain: {
+      mb4_cyclic& read = op.read_->read_;
       mb4_cyclic_compare(&read, &op.plan_, 0, read.fresh, MB4_WITH_ALL);
-      [[fallthrough]];
-    case kProof: {
-      const Result<void> seen = look(op);
-      if (!seen) {
-        return seen;
-      }
-      if (!op.status_.idle() || (read.flags & ~unsigned{op.status_.valid_flags()}) != 0) {
-        return Error::kCorrupted;
-      }
-      add_clear(chip, op);
-      return {};
+      return take_words_status(chip, op);
     }
+    case kFrameStatus:
+      return take_words_status(chip, op);
     case kClear: {
       const Result<void> cleared = clear_step(chip, op, now_us);
-      return cleared && op.plan_.frames == 0 ? frame_ended(chip, op) : cleared;
+      return cleared && op.plan_.frames == 0 ? end_frame(chip, op) : cleared;
     }
     case kBlank:
       // A line that stays low is no reason to drop the good words.
-      static_cast<void>(lines(chip, op, now_us));
+      static_cast<void>(take_lines(chip, op, now_us));
       op.stage_ = kBlank;
       if (op.plan_.frames == 0) {
-        static_cast<void>(mb4_cyclic_tell_blank(&read, received(op), MB4_WITH_ALL));
+        static_cast<void>(mb4_cyclic_tell_blank(&op.read_->read_, received(op), MB4_WITH_ALL));
       }
       return {};
     default:
       return stopped_step(chip, op, now_us);
   }
+}
+
+inline Result<void> Procedures::take_frame_recovery(ChipState& chip, Operation& op) {
+  const Result<void> done = take_recovery(chip, op);
+  if (recovery_is_over(done, op)) {
+    add_request_frame(op);
+  }
+  return done;
+}
+
+// Has the frame ended?
+inline Result<void> Procedures::take_frame_end_status(ChipState& chip, Operation& op,
+                                                      std::uint32_t now_us) {
+  const Result<void> ended = await_frame(chip, op, now_us);
+  return ended && op.plan_.frames == 0 ? take_frame_status(chip, op) : ended;
+}
+
+// The data is here.
+inline Result<void> Procedures::take_words(ChipState& chip, Operation& op) {
+  mb4_cyclic& read = op.read_->read_;
+  read.fresh = mb4_cyclic_take(&read, &op.plan_, 0, mb4_cyclic_valid(&read), MB4_WITH_ALL);
+  mb4_cyclic_find_blank(&read, MB4_WITH_ALL);
+  if (!chip.checks_all() || read.flags == 0) {
+    return end_frame(chip, op);  // SVALID is cleared already, or there is none
+  }
+  if (read.fresh == 0) {
+    add_poll(op);
+    op.stage_ = kFrameStatus;
+    return {};
+  }
+  op.stage_ = kWordsAgain;
+  mb4_cyclic_add_data(&read, &op.plan_, read.fresh, MB4_WITH_ALL);
+  mb4_cyclic_add_status(&op.plan_);
+  return {};
+}
+
+// With SpiCheck::kFull: the status after the data.
+inline Result<void> Procedures::take_words_status(ChipState& chip, Operation& op) {
+  const Result<void> seen = take_status(op);
+  if (!seen) {
+    return seen;
+  }
+  const unsigned wanted = op.read_->read_.flags;
+  if (!op.status_.idle() || (wanted & ~unsigned{op.status_.valid_flags()}) != 0) {
+    return Error::kCorrupted;
+  }
+  add_clear(chip, op);
+  return {};
 }
 
 // The frame has ended, or was refused.
@@ -171,7 +191,7 @@ inline Result<void> Procedures::frame(ChipState& chip, Operation& op, std::uint3
 // any value of nAGSERR. A chip may set nAGSERR = 0 at each write of 0xF4 (page 34 can be read so;
 // AGSERR_ON_INSTR_WRITE = 1). The driver looks at nAGSERR only if there is no data and nSCDERR = 1;
 // nSCDERR = 0 shows that a frame ran. On such a chip kNoData appears as kLineError.
-inline Result<void> Procedures::frame_over(ChipState& chip, Operation& op) {
+inline Result<void> Procedures::take_frame_status(ChipState& chip, Operation& op) {
   const Status& status = op.status_;
   mb4_cyclic& read = op.read_->read_;
   for (std::size_t i = 0; i < Status::kBytes; ++i) {
@@ -192,7 +212,7 @@ inline Result<void> Procedures::frame_over(ChipState& chip, Operation& op) {
     if (!chip.checks_all() && mb4_cyclic_valid(&read) != 0) {
       mb4_cyclic_add_clear(&op.plan_, chip.sensor_flags, 4);
     }
-    op.stage_ = kTake;
+    op.stage_ = kWords;
     return {};
   }
   // Without a sensor only nAGSERR can show a refused frame. With kWaitForLine the chip refuses no
@@ -202,10 +222,10 @@ inline Result<void> Procedures::frame_over(ChipState& chip, Operation& op) {
     add_stop(chip, op, Error::kLineError);
     return {};
   }
-  return frame_ended(chip, op);
+  return end_frame(chip, op);
 }
 
-inline Result<void> Procedures::frame_ended(ChipState& chip, Operation& op) {
+inline Result<void> Procedures::end_frame(ChipState& chip, Operation& op) {
   const mb4_cyclic& read = op.read_->read_;
   bool good = true;
   for (std::uint8_t i = 0; i < read.count; ++i) {
@@ -226,7 +246,7 @@ inline Result<void> Procedures::wait_step(ChipState& chip, Operation& op, std::u
   if (op.stage_ != kStart && op.stage_ != kPoll) {
     return op.good_ ? stopped_step(chip, op, now_us) : Error::kTransport;
   }
-  if (const Result<void> seen = look(op); !seen) {
+  if (const Result<void> seen = take_status(op); !seen) {
     return seen;
   }
   if (op.stage_ == kStart) {
@@ -239,7 +259,7 @@ inline Result<void> Procedures::wait_step(ChipState& chip, Operation& op, std::u
     return {};
   }
   if (!op.limit_.over) {
-    again(op, now_us);
+    add_next_poll(op, now_us);
     return {};
   }
   if (status.idle() && chip.watch.silent_us == MB4_NEVER) {
@@ -268,7 +288,7 @@ inline Result<void> Procedures::stopped_step(ChipState& chip, Operation& op, std
     }
     return op.cause_;
   }
-  const Result<void> line = lines(chip, op, now_us);
+  const Result<void> line = take_lines(chip, op, now_us);
   return line && op.plan_.frames == 0 ? Result<void>(Error::kTimeout) : line;
 }
 
