@@ -27,7 +27,7 @@ struct ChipState;
 struct Procedures;
 }  // namespace detail
 
-// Memory for an operation, in the caller's hands; 220 bytes on a Cortex-M. A plan call begins the
+// Memory for an operation, in the caller's hands; 236 bytes on a Cortex-M. A plan call begins the
 // operation and Device::finish() continues it:
 //
 //   mb4::Operation operation;
