@@ -12,6 +12,7 @@
 #include "mb4.h"
 #include "mb4/mb4.hpp"
 #include "mb4/safety.hpp"
+#include "mb4_c_access.hpp"
 #include "mb4_c_convert.hpp"
 
 namespace {
@@ -49,6 +50,11 @@ using Words [[gnu::may_alias]] = std::uint32_t;
 
 mb4::Device<mb4::FunctionBus, mb4::FunctionClock>& of(mb4_device* device) {
   return reinterpret_cast<Opened*>(device->opaque)->device;
+}
+
+// The access that the caller polls.
+mb4_c::PolledAccess<mb4::FunctionBus, mb4::FunctionClock> access_of(mb4_device* device) {
+  return mb4_c::PolledAccess(of(device));
 }
 
 mb4::Operation& of(mb4_operation* operation) {
@@ -204,22 +210,22 @@ mb4_result mb4_slave_activate(mb4_device* device, uint8_t ids, uint8_t ids_2) {
 }
 mb4_result mb4_slave_begin_read(mb4_device* device, uint8_t channel, uint8_t id, uint8_t address,
                                 size_t size) {
-  return to_c(of(device).control().begin_read({channel, id}, address, size));
+  return to_c(access_of(device).begin_read({channel, id}, address, size));
 }
 mb4_result mb4_slave_begin_write(mb4_device* device, uint8_t channel, uint8_t id, uint8_t address,
                                  const uint8_t* data, size_t size) {
-  return to_c(of(device).control().begin_write({channel, id}, address, bytes(data, size)));
+  return to_c(access_of(device).begin_write({channel, id}, address, bytes(data, size)));
 }
 mb4_result mb4_slave_begin_command(mb4_device* device, const mb4_command* command) {
-  return to_c(of(device).control().begin_command(from_c(*command)));
+  return to_c(access_of(device).begin_command(from_c(*command)));
 }
 mb4_result mb4_slave_poll(mb4_device* device, bool* ended) {
-  const mb4::Result<bool> result = of(device).control().poll();
+  const mb4::Result<bool> result = access_of(device).poll();
   *ended = result.value_or(false);
   return to_c(result);
 }
 mb4_result mb4_slave_take(mb4_device* device, uint8_t* data, size_t size) {
-  return to_c(of(device).control().take(bytes(data, size)));
+  return to_c(access_of(device).take(bytes(data, size)));
 }
 mb4_result mb4_slave_abort(mb4_device* device) { return to_c(of(device).control().abort()); }
 

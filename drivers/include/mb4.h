@@ -5,10 +5,10 @@
  * and no static data.
  *
  * The comment of the C++ call with the same name states what a call does, its transfers, ranges and
- * errors: mb4/device.hpp, automatic.hpp, control_steps.hpp, control.hpp, scan.hpp,
- * enc/position.hpp. mb4/error.hpp and docs/driver.md describe the errors. No pointer may be null
- * unless its comment allows it. Outputs are valid only on success unless the comment says
- * otherwise.
+ * errors: mb4/device.hpp, automatic.hpp, control.hpp, scan.hpp, enc/position.hpp. That of
+ * mb4_slave_begin_read() to mb4_slave_take() is in c/mb4_c_access.hpp. mb4/error.hpp and
+ * docs/driver.md describe the errors. No pointer may be null unless its comment allows it. Outputs
+ * are valid only on success unless the comment says otherwise.
  */
 #ifndef MB4_H_
 #define MB4_H_

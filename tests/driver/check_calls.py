@@ -6,8 +6,8 @@
   check_calls.py BUILD_DIR      compares tests/driver/calls.toml with the headers and with CTest
   check_calls.py self-test      planted gaps are reported
 
-A public call is a function of Device, Automatic, ControlSteps, Control, Fields or Opcodes that
-returns a Result, and scan_bus. Its errors are those that the comment above it names. Every function
+A public call is a function of Device, Automatic, Control, Fields or Opcodes that returns a Result,
+scan_bus, and a call of C that is more than one of these. Its errors are those that the comment above it names. Every function
 of mb4.h is called by c_binding_test.c. docs/locking.md says of each public call where it may run.
 """
 
@@ -21,9 +21,10 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 HEADERS = HERE.parents[1] / "drivers" / "include" / "mb4"
-CLASSES = {"Device": "device.hpp", "Automatic": "automatic.hpp", "ControlSteps":
-           "control_steps.hpp", "Control": "control.hpp", "Fields": "fields.hpp",
-           "Opcodes": "opcodes.hpp"}
+CLASSES = {"Device": "device.hpp", "Automatic": "automatic.hpp", "Control": "control.hpp",
+           "Fields": "fields.hpp", "Opcodes": "opcodes.hpp",
+           "PolledAccess": "../../c/mb4_c_access.hpp"}
+IN_C = {"PolledAccess": "mb4_slave_"}  # its calls have names of mb4.h
 
 
 def error_names(text):
@@ -44,10 +45,10 @@ def public_calls(name, text, errors):
         if line.startswith("  //"):
             comment.append(line)
             continue
-        found = re.match(r"  (?:\[\[nodiscard\]\] )?Result<[\w:]+> (\w+)\(", line)
+        found = re.match(r"  (?:\[\[nodiscard\]\] )?(?:mb4::)?Result<[\w:]+> (\w+)\(", line)
         if found:
             named = set(re.findall(r"\bk[A-Z]\w+", " ".join(comment))) & errors
-            calls.setdefault(f"{name}::{found.group(1)}", set()).update(named)
+            calls.setdefault(IN_C.get(name, f"{name}::") + found.group(1), set()).update(named)
         if not line.startswith("  template"):
             comment = []
     return calls

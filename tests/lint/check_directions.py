@@ -38,7 +38,7 @@ DRIVER_LAYERS = (
      "mb4/detail/control_checks.hpp", "mb4/detail/initialization.hpp", "mb4/detail/reads.hpp",
      "mb4/detail/single_frame.hpp"),
     ("mb4/detail/blocking.hpp",),
-    ("mb4/automatic.hpp", "mb4/control.hpp", "mb4/control_steps.hpp"),
+    ("mb4/automatic.hpp", "mb4/control.hpp"),
     ("mb4/device.hpp", "mb4/scan.hpp"),
     ("mb4/mb4.hpp", "mb4/acquisition.hpp"),
 )
@@ -61,6 +61,8 @@ OTHER_DRIVERS = tuple(master.driver for master in MASTERS if master.driver and m
 MAY_USE = {
     "regmap/": (),
     "drivers/c/": (*DRIVER, "regmap/"),
+    # Calls over the Operation of the device, as those of mb4/control.hpp.
+    "drivers/c/mb4_c_access.hpp": (*DRIVER, "drivers/include/mb4/detail/", "regmap/"),
     "drivers/arduino/": (*DRIVER, "regmap/"),
     "drivers/zephyr/": (*DRIVER, "regmap/"),
     "drivers/rust/": (*DRIVER, "regmap/"),

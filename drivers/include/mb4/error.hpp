@@ -35,7 +35,7 @@ enum class Error : std::uint8_t {
   // The configuration reads back differently; ErrorInfo::address() is the first register that
   // differs. Touched: the configuration in the chip must not be used.
   kVerify = 7,
-  // The frame, or a register access (time limit: ControlSteps::poll()), has not ended in time and
+  // The frame, or a register access (time limit: control.hpp), has not ended in time and
   // SL is not stuck: the slave does not answer or takes longer than the timeout, or the chip has no
   // system clock. Touched: BREAK has been sent, the chip is idle; only Automatic::poll() and
   // poll_slave() leave that to the caller.
@@ -77,7 +77,7 @@ enum class Error : std::uint8_t {
   // Not touched.
   kBusy = 16,
   // The call needs automatic frames and they do not run, or they run and the call forbids them; or
-  // ControlSteps::poll() finds nothing that was begun. Not touched.
+  // mb4_slave_poll() finds nothing that was begun. Not touched.
   kWrongMode = 17,
   // A read without HOLDBANK beside a control communication (Config::hold_beside_access = false),
   // and the chip switched the banks twice meanwhile. Touched: SVALID of one frame is cleared. This

@@ -15,7 +15,6 @@
 #include "mb4/config.hpp"
 #include "mb4/config/features.hpp"
 #include "mb4/control.hpp"
-#include "mb4/control_steps.hpp"
 #include "mb4/crc.hpp"
 #include "mb4/device.hpp"
 #include "mb4/error.hpp"

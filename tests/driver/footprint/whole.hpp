@@ -36,7 +36,7 @@ template <typename Device>
          automatic.plan_actuator(op, work.slave, work.word) && automatic.plan(work.read) &&
          control.plan_read(op, work.address, work.slave, work.bytes) &&
          control.plan_write(op, work.address, work.slave, work.bytes) &&
-         control.plan_command(op, work.command) &&
+         control.plan_command(op, work.command) && control.plan_activate(op) &&
          automatic.finish(work.read, true, work.hz_or_ns) &&
          device.finish(op, true, work.hz_or_ns) && work.read.result(work.frame) && op.result();
 }
@@ -61,9 +61,7 @@ template <typename Device>
   good = good && mb4::scan_bus(device, work.slave, work.identities) && control.send(work.command) &&
          control.read_registers(work.address, work.slave, work.bytes) &&
          control.write_registers(work.address, work.slave, work.bytes) &&
-         control.begin_read(work.address, work.slave, work.bytes.size()) && control.poll() &&
-         control.take(work.bytes) && control.begin_write(work.address, work.slave, work.bytes) &&
-         control.begin_command(work.command) && control.abort() && plan_all(device, work);
+         control.activate(work.slave) && control.abort() && plan_all(device, work);
   work.hz_or_ns = mb4::ma_hz_at_most(work.config.f_clk_hz, work.hz_or_ns);
   return good;
 }

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "drivers/c/mb4_c_access.hpp"
 #include "mb4/device.hpp"
 #include "tests/driver/mb4/encoder26.hpp"
 #include "tests/driver/mb4/strict_bus.hpp"
@@ -299,7 +300,7 @@ TEST(RegistersFailure, TransportAtEachTransfer_IsReportedAndNothingKeepsRunning)
     const std::array<std::uint8_t, 1> data{0x12};
     const mb4::Result<void> done = device.control().write_registers({1, 0}, 0x60, data);
     EXPECT_EQ(done.error(), index >= 9 ? Error::kNone : Error::kTransport) << index;
-    EXPECT_EQ(device.control().poll().error(), Error::kWrongMode) << index;
+    EXPECT_EQ(mb4_c::PolledAccess(device).poll().error(), Error::kWrongMode) << index;
   }
 }
 
@@ -331,7 +332,7 @@ TEST_F(Registers, WrongArguments_AreErrorsWithoutTransfer) {
   EXPECT_EQ(device.control().read_registers({1, 0}, 0, all.first(1)).error(),
             Error::kNotConfigured);
   configure();
-  mb4::Control<StrictBus, FakeClock> control = device.control();
+  mb4_c::PolledAccess control(device);
   EXPECT_EQ(control.read_registers({1, 0}, 0x00, all).error(), Error::kInvalidArgument);
   EXPECT_EQ(control.read_registers({1, 0}, 0x00, all.first(0)).error(), Error::kInvalidArgument);
   EXPECT_EQ(control.read_registers({1, 0}, 0x7F, all.first(2)).error(), Error::kInvalidArgument);
@@ -357,7 +358,7 @@ TEST(ControlConfig, FramesThatDoNotWait_AreUnsupported) {
   config.frame_start = mb4::FrameStart::kRequireIdleLine;
   mb4test::expect_configure(bus, 0xE8, 0x7D);
   ASSERT_TRUE(device.configure(config).ok());
-  const ErrorInfo info = device.control().begin_read({1, 0}, 0, 1).info();
+  const ErrorInfo info = mb4_c::PolledAccess(device).begin_read({1, 0}, 0, 1).info();
   EXPECT_EQ(info.code, Error::kUnsupported);
   EXPECT_EQ(info.field, mb4::ConfigField::kFrameStart);
 }
@@ -367,7 +368,7 @@ TEST(ControlConfig, FramesThatDoNotWait_AreUnsupported) {
 TEST_F(Steps, Poll_NeverWaits) {
   configure();
   expect_begin(0x10, 0x01, 0x01, 0xC0);
-  mb4::Control<StrictBus, FakeClock> control = device.control();
+  mb4_c::PolledAccess control(device);
   ASSERT_TRUE(control.begin_read({1, 0}, 0x10, 2).ok());
   EXPECT_EQ(control.begin_read({1, 0}, 0x10, 2).error(), Error::kBusy);
   EXPECT_EQ(device.read_frame().error(), Error::kBusy);
@@ -396,22 +397,22 @@ TEST_F(Steps, Poll_NeverWaits) {
 TEST_F(Steps, Abort_BreaksAndFreesTheChip) {
   configure();
   expect_begin(0x10, 0x00, 0x01, 0xC0);
-  ASSERT_TRUE(device.control().begin_read({1, 0}, 0x10, 1).ok());
+  ASSERT_TRUE(mb4_c::PolledAccess(device).begin_read({1, 0}, 0x10, 1).ok());
   expect_abort();
   EXPECT_TRUE(device.control().abort().ok());
-  EXPECT_EQ(device.control().poll().error(), Error::kWrongMode);
+  EXPECT_EQ(mb4_c::PolledAccess(device).poll().error(), Error::kWrongMode);
   // The aborted access may still run: BREAK and the slaves' timeout come first.
   bus.expect_write(kBreak);
   bus.expect_write(kClearValid1);
   bus.expect_proven({0x02, 0xE2, 0x11, 0x00, 0x01, 0xC0});
   bus.expect_write(kFrame);
-  EXPECT_TRUE(device.control().begin_read({1, 0}, 0x11, 1).ok());
+  EXPECT_TRUE(mb4_c::PolledAccess(device).begin_read({1, 0}, 0x11, 1).ok());
 }
 
 TEST_F(Steps, ThreeFailedLooks_AreTheEnd) {
   configure();
   expect_begin(0x10, 0x00, 0x01, 0xC0);
-  mb4::Control<StrictBus, FakeClock> control = device.control();
+  mb4_c::PolledAccess control(device);
   ASSERT_TRUE(control.begin_read({1, 0}, 0x10, 1).ok());
   for (int look = 0; look < 2; ++look) {
     bus.expect_read(kReadStatus, zeros(6));
@@ -427,13 +428,13 @@ TEST_F(Steps, ThreeFailedLooks_AreTheEnd) {
 TEST_F(Steps, PollOfAnOperation_IsWrongMode) {
   configure();
   expect_begin(0x10, 0x00, 0x01, 0xC0);
-  ASSERT_TRUE(device.control().begin_read({1, 0}, 0x10, 1).ok());
+  ASSERT_TRUE(mb4_c::PolledAccess(device).begin_read({1, 0}, 0x10, 1).ok());
   expect_abort();
   ASSERT_TRUE(device.control().abort().ok());
   mb4::Operation operation;
   std::uint8_t value = 0;
   ASSERT_TRUE(device.control().plan_read(operation, {1, 0}, 0x10, {&value, 1}).ok());
-  EXPECT_EQ(device.control().poll().error(), Error::kWrongMode);
+  EXPECT_EQ(mb4_c::PolledAccess(device).poll().error(), Error::kWrongMode);
 }
 
 // Positions are read meanwhile: by next() too, which waits for the end of a frame.
@@ -441,7 +442,7 @@ TEST_F(RegistersAgs, NextMeanwhile_AccessGoesOn) {
   start_automatic();
   bus.expect_proven({0x02, 0xE2, 0x44, 0x00, 0x01, 0xC0});
   bus.expect_write(kFrameAgs);
-  ASSERT_TRUE(device.control().begin_read({1, 0}, 0x44, 1).ok());
+  ASSERT_TRUE(mb4_c::PolledAccess(device).begin_read({1, 0}, 0x44, 1).ok());
   bus.expect_read(kReadStatus, {0, 0xFB, 0x02, 0, 0, 0x09});
   bus.expect_write({0x07, 0x41});
   bus.expect_read(mb4test::kReadData4, mb4test::kData4);
@@ -450,7 +451,7 @@ TEST_F(RegistersAgs, NextMeanwhile_AccessGoesOn) {
   mb4::Frame frame;
   ASSERT_TRUE(device.automatic().next(frame).ok());
   EXPECT_TRUE(frame.one_frame);
-  EXPECT_FALSE(*device.control().poll());  // what next() has seen
+  EXPECT_FALSE(*mb4_c::PolledAccess(device).poll());  // what next() has seen
   // And so is the configuration compared.
   for (const auto& one : mb4test::comparison(mb4test::read_back(), kRunsAgs)) {
     bus.expect_read(one.mosi, one.miso);
@@ -458,7 +459,7 @@ TEST_F(RegistersAgs, NextMeanwhile_AccessGoesOn) {
   EXPECT_TRUE(device.verify().ok());
   bus.expect_read(kReadStatus, kDoneAgs);
   bus.expect_write(kRest);
-  EXPECT_TRUE(*device.control().poll());
+  EXPECT_TRUE(*mb4_c::PolledAccess(device).poll());
 }
 
 // next() restarts after a bad frame, but not while an access runs: that would end it.
@@ -481,7 +482,7 @@ TEST_F(RegistersAgs, NextAfterABadFrame_RestartsWhenTheAccessHasEnded) {
     if (access) {
       bus.expect_proven({0x02, 0xE2, 0x44, 0x00, 0x01, 0xC0});
       bus.expect_write(kFrameAgs);
-      ASSERT_TRUE(device.control().begin_read({1, 0}, 0x44, 1).ok());
+      ASSERT_TRUE(mb4_c::PolledAccess(device).begin_read({1, 0}, 0x44, 1).ok());
     } else {
       bus.expect_write(kBreak);
       bus.expect_write(kClearValid1);
@@ -491,15 +492,15 @@ TEST_F(RegistersAgs, NextAfterABadFrame_RestartsWhenTheAccessHasEnded) {
     ASSERT_TRUE(device.automatic().next(frame).ok());
     EXPECT_TRUE(frame[1].ok());
     if (access) {
-      EXPECT_FALSE(*device.control().poll());  // what next() has seen
+      EXPECT_FALSE(*mb4_c::PolledAccess(device).poll());  // what next() has seen
       bus.expect_read(kReadStatus, kDoneAgs);
       bus.expect_write(kRest);
-      EXPECT_TRUE(*device.control().poll());
+      EXPECT_TRUE(*mb4_c::PolledAccess(device).poll());
       std::array<std::uint8_t, 1> value{};
-      EXPECT_EQ(device.control().take(mb4::Span<std::uint8_t>(value).first(0)).error(),
+      EXPECT_EQ(mb4_c::PolledAccess(device).take(mb4::Span<std::uint8_t>(value).first(0)).error(),
                 Error::kInvalidArgument);
       bus.expect_read({0x03, 0x80, 0x00}, {0, 0, 0x77});
-      ASSERT_TRUE(device.control().take(value).ok());
+      ASSERT_TRUE(mb4_c::PolledAccess(device).take(value).ok());
       EXPECT_EQ(value[0], 0x77);
     }
   }
@@ -587,14 +588,14 @@ TEST_F(RegistersAgs, NeverEnding_IsTimeoutAndFramesCanBeRestarted) {
   start_automatic();
   bus.expect_proven({0x02, 0xE2, 0x44, 0x00, 0x01, 0xC0});
   bus.expect_write(kFrameAgs);
-  ASSERT_TRUE(device.control().begin_read({1, 0}, 0x44, 1).ok());
+  ASSERT_TRUE(mb4_c::PolledAccess(device).begin_read({1, 0}, 0x44, 1).ok());
   clock.time_us += 174'800;
   bus.expect_read(kReadStatus, kRunsAgs);
-  EXPECT_FALSE(*device.control().poll());
+  EXPECT_FALSE(*mb4_c::PolledAccess(device).poll());
   clock.time_us += 100;
   bus.expect_read(kReadStatus, kRunsAgs);
   expect_abort();
-  EXPECT_EQ(device.control().poll().error(), Error::kTimeout);
+  EXPECT_EQ(mb4_c::PolledAccess(device).poll().error(), Error::kTimeout);
   EXPECT_FALSE(device.automatic().running());
   bus.expect_write(kBreak);
   bus.expect_write(kClearValid1);
@@ -611,7 +612,7 @@ class PollBesideControl : public ControlTest {
     start_automatic(false);
     bus.expect_proven({0x02, 0xE2, 0x44, 0x00, 0x01, 0xC0});
     bus.expect_write(kFrameAgs);
-    ASSERT_TRUE(device.control().begin_read({1, 0}, 0x44, 1).ok());
+    ASSERT_TRUE(mb4_c::PolledAccess(device).begin_read({1, 0}, 0x44, 1).ok());
   }
   void expect_read(const Bytes& after) {
     bus.expect_read(kReadStatus, {0, 0xFB, 0x02, 0, 0, 0x09});
@@ -695,7 +696,7 @@ TEST(PollBesideControlFull, WordWithoutCrc_IsReadTwice) {
     bus.expect_proven({0x02, 0xE2, 0x44, 0x00, 0x01, 0xC0});
     bus.expect_write(kFrameAgs);
     bus.expect_read(kReadStatus, kRunsAgs);
-    ASSERT_TRUE(device.control().begin_read({1, 0}, 0x44, 1).ok());
+    ASSERT_TRUE(mb4_c::PolledAccess(device).begin_read({1, 0}, 0x44, 1).ok());
     const Bytes read = join({{0x09}, Bytes(8, 0x5A)});
     const Bytes word{0, 3, 2, 3, 4, 5, 6, 7, 8};
     Bytes again = word;
@@ -716,7 +717,7 @@ TEST(PollBesideControlFull, WordWithoutCrc_IsReadTwice) {
 }
 
 // The plan of a chain is not that of a read beside an access without HOLDBANK.
-TEST(PollBesideControlSteps, PlannedBefore_IsPlannedAnew) {
+TEST(PollBesideAccess, PlannedBefore_IsPlannedAnew) {
   StrictBus bus;
   FakeClock clock;
   mb4::Device<StrictBus, FakeClock> device(bus, clock);
@@ -739,7 +740,7 @@ TEST(PollBesideControlSteps, PlannedBefore_IsPlannedAnew) {
   EXPECT_EQ(read.result()->position, mb4test::kPosition);
   bus.expect_proven({0x02, 0xE2, 0x44, 0x00, 0x01, 0xC0});
   bus.expect_write(kFrameAgs);
-  ASSERT_TRUE(device.control().begin_read({1, 0}, 0x44, 1).ok());
+  ASSERT_TRUE(mb4_c::PolledAccess(device).begin_read({1, 0}, 0x44, 1).ok());
   ASSERT_TRUE(device.automatic().plan_slave(1, read).ok());
   ASSERT_EQ(read.frames(), 1U);
   EXPECT_EQ(read.tx(0)[0], 0x05);
@@ -784,7 +785,7 @@ TEST(PollBesideControlFailure, TransportAtEachTransfer_LeavesNoReading) {
     config.hold_beside_access = false;
     ASSERT_TRUE(device.configure(config).ok());
     ASSERT_TRUE(device.automatic().start().ok());
-    ASSERT_TRUE(device.control().begin_read({1, 0}, 0x44, 1).ok());
+    ASSERT_TRUE(mb4_c::PolledAccess(device).begin_read({1, 0}, 0x44, 1).ok());
     bus.expect_read(kReadStatus, {0, 0xFB, 0x02, 0, 0, 0x09});
     bus.expect_write(kClearValid1);
     bus.expect_read(mb4test::kReadData4, mb4test::kData4);
@@ -815,7 +816,7 @@ class HoldBesideControl : public ControlTest {
     if (check == mb4::SpiCheck::kFull) {
       bus.expect_read(kReadStatus, {0, kRuns, 0, 0, 0, 0x09});
     }
-    ASSERT_TRUE(device.control().begin_read({1, 0}, 0x44, 1).ok());
+    ASSERT_TRUE(mb4_c::PolledAccess(device).begin_read({1, 0}, 0x44, 1).ok());
   }
   // Nothing new; 0xF0 as given.
   void expect_look(std::uint8_t f0, bool full = false) {
@@ -844,14 +845,14 @@ TEST_F(HoldBesideControl, StatusOfTheRead_ServesTheAccess) {
   begin(mb4::SpiCheck::kOff);
   expect_look(kRuns);
   EXPECT_EQ(device.automatic().poll_slave(1).error(), Error::kNoData);
-  EXPECT_FALSE(*device.control().poll());
+  EXPECT_FALSE(*mb4_c::PolledAccess(device).poll());
   bus.expect_read(kReadStatus, {0, kRuns, 0, 0, 0, 0x01});
-  EXPECT_FALSE(*device.control().poll());
+  EXPECT_FALSE(*mb4_c::PolledAccess(device).poll());
   expect_look(kEnded);
   EXPECT_EQ(device.automatic().poll_slave(1).error(), Error::kNoData);
   bus.expect_read(kReadStatus, {0, kEnded, 0, 0, 0, 0x01});
   bus.expect_write(kRest);
-  EXPECT_TRUE(*device.control().poll());
+  EXPECT_TRUE(*mb4_c::PolledAccess(device).poll());
 }
 
 // Behind the time limit the status is read once more, whatever a read has seen.
@@ -862,7 +863,7 @@ TEST_F(HoldBesideControl, TimeOver_IsTimeoutAfterAnotherLook) {
   clock.time_us += 200'000;
   bus.expect_read(kReadStatus, {0, kRuns, 0, 0, 0, 0x01});
   expect_abort();
-  EXPECT_EQ(device.control().poll().error(), Error::kTimeout);
+  EXPECT_EQ(mb4_c::PolledAccess(device).poll().error(), Error::kTimeout);
 }
 
 // INSTR = 000 is the driver's own: one bit more must not look like the end.
@@ -870,16 +871,16 @@ TEST_F(HoldBesideControl, FlippedRegend_DoesNotEndTheAccess) {
   begin(mb4::SpiCheck::kFull);
   expect_look(kRuns, true);
   EXPECT_EQ(device.automatic().poll_slave(1).error(), Error::kNoData);
-  EXPECT_FALSE(*device.control().poll());
+  EXPECT_FALSE(*mb4_c::PolledAccess(device).poll());
   bus.expect_read(kReadStatus, {0, kEnded, 0, 0, 0, 0x01});
   bus.expect_read(kReadStatus, {0, kRuns, 0, 0, 0, 0x01});
-  EXPECT_FALSE(*device.control().poll());
+  EXPECT_FALSE(*mb4_c::PolledAccess(device).poll());
   bus.expect_read(kReadStatus, {0, kEnded, 0, 0, 0, 0x01});
   bus.expect_read(kReadStatus, {0, kEnded, 0, 0, 0, 0x01});
   bus.expect_read({0x03, 0x80, 0x5A}, {0, 0, 0x77});  // RDATA1, which take() compares
   bus.expect_read(mb4test::kReadWitness, {0, kEnded, 0, 0, 0, 0x01, 0});
   mb4test::expect_rest_at_full(bus);
-  EXPECT_TRUE(*device.control().poll());
+  EXPECT_TRUE(*mb4_c::PolledAccess(device).poll());
 }
 
 // ---- Commands -----------------------------------------------------------------------------------
@@ -932,7 +933,7 @@ TEST(CommandChannels, BothAtOnce_IsAllowed) {
   bus.expect_write(kFrame);
   mb4::Command command;
   command.channels = 3;
-  EXPECT_TRUE(device.control().begin_command(command).ok());
+  EXPECT_TRUE(mb4_c::PolledAccess(device).begin_command(command).ok());
 }
 
 TEST_F(Commands, WrongArguments_AreErrorsWithoutTransfer) {

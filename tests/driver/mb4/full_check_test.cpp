@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "drivers/c/mb4_c_access.hpp"
 #include "mb4/mb4.hpp"
 #include "tests/driver/mb4/encoder26.hpp"
 #include "tests/driver/mb4/strict_bus.hpp"
@@ -240,15 +241,15 @@ TEST_F(FullCheck, BadWordBesideAnAccess_IsNotMarked) {
   bus.expect_proven({0x02, 0xE2, 0x44, 0x00, 0x01, 0xC0});
   bus.expect_write({0x07, 0x09});  // INSTR = 100
   bus.expect_read(kReadStatus, status(0xFB, 0x00, 0x09));
-  ASSERT_TRUE(device.control().begin_read({1, 0}, 0x44, 1).ok());
+  ASSERT_TRUE(mb4_c::PolledAccess(device).begin_read({1, 0}, 0x44, 1).ok());
   poll(false);
-  EXPECT_FALSE(*device.control().poll());  // the read has seen that it runs
+  EXPECT_FALSE(*mb4_c::PolledAccess(device).poll());  // the read has seen that it runs
   bus.expect_read(kReadStatus, done);
   bus.expect_read(kReadStatus, done);
   bus.expect_read({0x03, 0x80, 0x5A}, {0, 0, 0x77});
   bus.expect_read(mb4test::kReadWitness, mb4test::witness(done));
   mb4test::expect_rest_at_full(bus, mb4test::rest_back(answer));
-  ASSERT_TRUE(*device.control().poll());
+  ASSERT_TRUE(*mb4_c::PolledAccess(device).poll());
   poll(false);
   for (const bool again : {false, true}) {
     for (const std::uint8_t filler : {std::uint8_t{0x5A}, std::uint8_t{0x00}}) {
@@ -256,7 +257,7 @@ TEST_F(FullCheck, BadWordBesideAnAccess_IsNotMarked) {
       bus.expect_read(mb4test::kReadWitness, mb4test::witness(done));
     }
     std::array<std::uint8_t, 1> value{};
-    ASSERT_TRUE(device.control().take(value).ok()) << again;
+    ASSERT_TRUE(mb4_c::PolledAccess(device).take(value).ok()) << again;
     poll(true);
   }
 }
@@ -304,7 +305,7 @@ TEST_F(FullCheck, BankSwitchedBetweenTwoReadings_SecondTryIsGood) {
   bus.expect_read({0x03, 0xE2, 0, 0, 0, 0}, {0, 0, 0x44, 0x00, 0x01, 0xC0});
   bus.expect_write({0x07, 0x09});  // INSTR = 100
   bus.expect_read(kReadStatus, status(0xFB, 0x00, 0x09));
-  ASSERT_TRUE(device.control().begin_read({1, 0}, 0x44, 1).ok());
+  ASSERT_TRUE(mb4_c::PolledAccess(device).begin_read({1, 0}, 0x44, 1).ok());
   const Bytes fresh = status(0xFB, 0x02, 0x09);
   const Bytes still = status(0xFB, 0x00, 0x09);
   for (const bool one : {false, true}) {
@@ -433,7 +434,7 @@ TEST_F(FullCheck, NoStatusWithoutHoldbank_IsNotDetected) {
   bus.expect_read({0x03, 0xE2, 0, 0, 0, 0}, {0, 0, 0x44, 0x00, 0x01, 0xC0});
   bus.expect_write({0x07, 0x09});  // INSTR = 100
   bus.expect_read(kReadStatus, status(0xFB, 0x00, 0x09));
-  ASSERT_TRUE(device.control().begin_read({1, 0}, 0x44, 1).ok());
+  ASSERT_TRUE(mb4_c::PolledAccess(device).begin_read({1, 0}, 0x44, 1).ok());
   const Bytes fresh = status(0xFB, 0x02, 0x09);
   for (const bool first : {false, true}) {
     bus.expect_read(kReadStatus, first ? zeros(6) : fresh);
@@ -452,7 +453,7 @@ TEST(CrcCheckUnheld, BadWordOfTheOtherSlave_IsNotWritten) {
   ASSERT_TRUE(device.automatic().start().ok());
   bus.expect_proven({0x02, 0xE2, 0x44, 0x00, 0x01, 0xC0});
   bus.expect_write({0x07, 0x09});
-  ASSERT_TRUE(device.control().begin_read({1, 0}, 0x44, 1).ok());
+  ASSERT_TRUE(mb4_c::PolledAccess(device).begin_read({1, 0}, 0x44, 1).ok());
   const Bytes word = join({mb4test::kData4, {0, 0, 0, mb4test::kCrc6}});
   for (int i = 0; i < 2; ++i) {
     bus.expect_read(kReadStatus, status(0x6B, 0x02, 0x09));
@@ -492,7 +493,7 @@ TEST_F(FullCheck, RecoveryFails_IsTransport) {
   fails_first([this] { return device.read_all(frame); });
   fails_first([this] { return device.initialize(); });
   fails_first([this] { return device.automatic().start(); });
-  fails_first([this] { return device.control().begin_read({1, 0}, 0x44, 1); });
+  fails_first([this] { return mb4_c::PolledAccess(device).begin_read({1, 0}, 0x44, 1); });
 }
 
 }  // namespace full_check_test

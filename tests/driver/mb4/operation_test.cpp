@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "drivers/c/mb4_c_access.hpp"
 #include "mb4/device.hpp"
 #include "tests/driver/mb4/encoder26.hpp"
 #include "tests/driver/mb4/strict_bus.hpp"
@@ -961,7 +962,7 @@ TEST_F(Access, AfterAWriteThatFails_NothingIsTaken) {
     EXPECT_FALSE(step({kRest}, {}));
     EXPECT_TRUE(step({{0x03, 0x80, 0, 0}}, {{0, 0, 1, 2}}));
     bus.expect_read({0x03, 0x80, 0, 0}, {0, 0, 1, 2});
-    EXPECT_TRUE(device.control().take(two).ok());
+    EXPECT_TRUE(mb4_c::PolledAccess(device).take(two).ok());
     if (kind == 0) {
       ASSERT_TRUE(device.control().plan_write(op, {1, 0}, 0x50, two).ok());
       EXPECT_FALSE(step({{0x02, 0x80, 1, 2}}, {}, false));
@@ -971,7 +972,7 @@ TEST_F(Access, AfterAWriteThatFails_NothingIsTaken) {
       EXPECT_FALSE(step({{0x02, 0x80, 0x80}}, {}, false));
       EXPECT_TRUE(step({kRest}, {}));
     }
-    EXPECT_EQ(device.control().take(two).error(), Error::kInvalidArgument) << kind;
+    EXPECT_EQ(mb4_c::PolledAccess(device).take(two).error(), Error::kInvalidArgument) << kind;
   }
 }
 
@@ -1369,7 +1370,7 @@ TEST_F(Doubt, ConfigurationChanged_LeavesNothingToTake) {
   EXPECT_FALSE(step(kTakeAgain, {{0, 0, 1, 2}, witness(kDoneAgs)}));
   EXPECT_TRUE(compares({{0xE6, 0x00}}));
   ends_with(Error::kVerify);
-  EXPECT_EQ(device.control().take(mb4::Span<std::uint8_t>(out.data(), 2)).error(),
+  EXPECT_EQ(mb4_c::PolledAccess(device).take(mb4::Span<std::uint8_t>(out.data(), 2)).error(),
             Error::kInvalidArgument);
 }
 
@@ -1538,7 +1539,7 @@ TEST_F(Access, DisturbedTake_LeavesNothingToTake) {
   EXPECT_FALSE(step(kTakeAgain, {{0, 0, 0x5A, 2}, witness(kDoneAgs)}));
   EXPECT_TRUE(compared());
   ends_with(Error::kCorrupted);
-  EXPECT_EQ(device.control().take(mb4::Span<std::uint8_t>(out.data(), 2)).error(),
+  EXPECT_EQ(mb4_c::PolledAccess(device).take(mb4::Span<std::uint8_t>(out.data(), 2)).error(),
             Error::kInvalidArgument);
 }
 

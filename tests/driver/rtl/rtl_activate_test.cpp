@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <string>
 
+#include "drivers/c/mb4_c_access.hpp"
 #include "sim/lines/clocked/clocked_line.hpp"
 #include "sim/lines/registers/control_slave.hpp"
 #include "tests/driver/rtl/fault_bus.hpp"
@@ -197,7 +198,7 @@ TEST(DriverActivateUse, WrongUse_TouchesNothing) {
   chip.bus.plan({});
   EXPECT_EQ(chip.device.control().activate(0, 1).error(), Error::kUnsupported);  // channel 2
   EXPECT_EQ(chip.bus.count(), 0U);
-  ASSERT_TRUE(chip.device.control().begin_read({1, 0}, 0, 1).ok());
+  ASSERT_TRUE(mb4_c::PolledAccess(chip.device).begin_read({1, 0}, 0, 1).ok());
   chip.bus.plan({});
   EXPECT_EQ(chip.device.control().activate().error(), Error::kBusy);
   EXPECT_EQ(chip.device.control().plan_activate(operation).error(), Error::kBusy);

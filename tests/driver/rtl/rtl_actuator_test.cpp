@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <string>
 
+#include "drivers/c/mb4_c_access.hpp"
 #include "sim/lines/clocked/actuator.hpp"
 #include "sim/lines/clocked/clocked_line.hpp"
 #include "tests/driver/rtl/protocol_bus.hpp"
@@ -212,7 +213,7 @@ TEST(DriverActuatorErrors, WrongUse_TouchesNothing) {
   EXPECT_EQ(one.chip.device.automatic().poll_slave(1).error(), Error::kInvalidArgument);
   EXPECT_EQ(one.chip.device.automatic().write_actuator(2, 0).error(), Error::kInvalidArgument);
   EXPECT_EQ(one.chip.bus.count(), 0U);
-  ASSERT_TRUE(one.chip.device.control().begin_read({1, 0}, 0, 1).ok());
+  ASSERT_TRUE(mb4_c::PolledAccess(one.chip.device).begin_read({1, 0}, 0, 1).ok());
   one.chip.bus.plan({});
   EXPECT_EQ(one.chip.device.write_actuator(1, 0).error(), Error::kBusy);
   EXPECT_EQ(one.chip.device.automatic().write_actuator(1, 0).error(), Error::kBusy);

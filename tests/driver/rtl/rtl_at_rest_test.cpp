@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "drivers/c/mb4_c_access.hpp"
 #include "sim/lines/clocked/clocked_line.hpp"
 #include "sim/lines/registers/control_slave.hpp"
 #include "tests/driver/rtl/fault_bus.hpp"
@@ -98,12 +99,12 @@ class DriverAtRest : public testing::TestWithParam<Case> {
                   Error::kRegister);
         break;
       case Before::kAborted:
-        ASSERT_TRUE(chip.device.control().begin_write({1, 0}, 0x44, bytes).ok());
+        ASSERT_TRUE(mb4_c::PolledAccess(chip.device).begin_write({1, 0}, 0x44, bytes).ok());
         ASSERT_TRUE(chip.device.control().abort().ok());
         ASSERT_TRUE(chip.device.automatic().restart().ok());
         break;
       case Before::kBeside:
-        ASSERT_TRUE(chip.device.control().begin_write({1, 0}, 0x44, bytes).ok());
+        ASSERT_TRUE(mb4_c::PolledAccess(chip.device).begin_write({1, 0}, 0x44, bytes).ok());
         break;
     }
   }
@@ -140,7 +141,7 @@ TEST_P(DriverAtRest, OneFlippedBitOfARead_StartsNothingThatHarms) {
     chip.bus.plan({});
     for (unsigned i = 0; beside && i < 300; ++i) {
       static_cast<void>(read(chip));
-      const mb4::Result<bool> ended = chip.device.control().poll();
+      const mb4::Result<bool> ended = mb4_c::PolledAccess(chip.device).poll();
       if (!ended || *ended) break;
     }
     chip.simulator.advance(kAccessUs * mb4::sim::kPsPerUs);

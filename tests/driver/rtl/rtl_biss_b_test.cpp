@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "drivers/c/mb4_c_access.hpp"
 #include "sim/lines/clocked/clocked_line.hpp"
 #include "tests/driver/rtl/protocol_bus.hpp"
 
@@ -170,13 +171,15 @@ TEST_P(DriverBissB, WrongUse_TouchesNothing) {
   EXPECT_EQ(command.info().number, 1);
   EXPECT_EQ(mb4::scan_bus(chip.device, 1, {}).error(), Error::kUnsupported);
   if (GetParam()) {
-    EXPECT_EQ(chip.device.control().begin_read({1, 0}, 0, 1).error(), Error::kInvalidArgument);
+    EXPECT_EQ(mb4_c::PolledAccess(chip.device).begin_read({1, 0}, 0, 1).error(),
+              Error::kInvalidArgument);
   }
   EXPECT_EQ(chip.bus.count(), 0U);
   ASSERT_TRUE(chip.device.automatic().start().ok());
   chip.bus.plan({});
-  EXPECT_EQ(chip.device.control().begin_read(slave(), 0, 1).error(), Error::kWrongMode);
-  EXPECT_EQ(chip.device.control().begin_write(slave(), 0, byte).error(), Error::kWrongMode);
+  EXPECT_EQ(mb4_c::PolledAccess(chip.device).begin_read(slave(), 0, 1).error(), Error::kWrongMode);
+  EXPECT_EQ(mb4_c::PolledAccess(chip.device).begin_write(slave(), 0, byte).error(),
+            Error::kWrongMode);
   EXPECT_EQ(chip.bus.count(), 0U);
 }
 
@@ -253,20 +256,20 @@ TEST_P(DriverBissBInit, LineStuck_IsLineErrorAndComesBack) {
 TEST_P(DriverBissB, StepByStep_PollSaysWhenItHasEnded) {
   FaultyChip chip(biss_b_bus(GetParam(), "registers = { 0x30 = [1, 2, 3, 4] }"));
   configure(chip);
-  ASSERT_TRUE(chip.device.control().begin_read(slave(), 0x30, 4).ok());
+  ASSERT_TRUE(mb4_c::PolledAccess(chip.device).begin_read(slave(), 0x30, 4).ok());
   EXPECT_EQ(chip.device.read_frame().error(), Error::kBusy);
   unsigned polls = 0;
   mb4::Result<bool> ended = false;
   while (ended && !*ended) {
     chip.simulator.advance(20 * mb4::sim::kPsPerUs);
-    ended = chip.device.control().poll();
+    ended = mb4_c::PolledAccess(chip.device).poll();
     ASSERT_LT(++polls, 100U);
   }
   ASSERT_TRUE(ended.ok());
   std::array<std::uint8_t, 4> bytes{};
-  ASSERT_TRUE(chip.device.control().take(bytes).ok());
+  ASSERT_TRUE(mb4_c::PolledAccess(chip.device).take(bytes).ok());
   EXPECT_EQ(bytes, (std::array<std::uint8_t, 4>{1, 2, 3, 4}));
-  ASSERT_TRUE(chip.device.control().begin_read(slave(), 0x30, 4).ok());
+  ASSERT_TRUE(mb4_c::PolledAccess(chip.device).begin_read(slave(), 0x30, 4).ok());
   ASSERT_TRUE(chip.device.control().abort().ok());
   EXPECT_TRUE(chip.device.read_frame().ok());
 }

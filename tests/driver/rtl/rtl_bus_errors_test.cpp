@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "drivers/c/mb4_c_access.hpp"
 #include "sim/lines/clocked/clocked_line.hpp"
 #include "tests/driver/rtl/fault_bus.hpp"
 #include "tests/driver/rtl/rtl_calls.hpp"
@@ -31,9 +32,11 @@ TEST(DriverCallErrors, ControlOnPeriodicFrames_IsUnsupported) {
   FaultyChip chip(kEncoder);
   ASSERT_TRUE(chip.device.configure(encoder(true)).ok());
   chip.bus.plan({});
-  EXPECT_EQ(chip.device.control().begin_read({1, 0}, 0, 1).error(), Error::kUnsupported);
-  EXPECT_EQ(chip.device.control().begin_write({1, 0}, 0, kBytes).error(), Error::kUnsupported);
-  EXPECT_EQ(chip.device.control().begin_command(activate()).error(), Error::kUnsupported);
+  EXPECT_EQ(mb4_c::PolledAccess(chip.device).begin_read({1, 0}, 0, 1).error(), Error::kUnsupported);
+  EXPECT_EQ(mb4_c::PolledAccess(chip.device).begin_write({1, 0}, 0, kBytes).error(),
+            Error::kUnsupported);
+  EXPECT_EQ(mb4_c::PolledAccess(chip.device).begin_command(activate()).error(),
+            Error::kUnsupported);
   EXPECT_EQ(chip.device.control().read_registers({1, 0}, 0, buffer).error(), Error::kUnsupported);
   EXPECT_EQ(chip.device.control().write_registers({1, 0}, 0, kBytes).error(), Error::kUnsupported);
   EXPECT_EQ(chip.device.control().send(activate()).error(), Error::kUnsupported);
@@ -85,7 +88,7 @@ TEST(DriverCallErrors, FrameEndsBesideControl_IsBankSwitched) {
   ASSERT_TRUE(chip.device.configure(config).ok());
   ASSERT_TRUE(chip.device.automatic().start().ok());
   chip.simulator.advance(250 * mb4::sim::kPsPerUs);
-  ASSERT_TRUE(chip.device.control().begin_read({1, 0}, 0x44, 4).ok());
+  ASSERT_TRUE(mb4_c::PolledAccess(chip.device).begin_read({1, 0}, 0x44, 4).ok());
   Frame frame;
   EXPECT_EQ(chip.device.automatic().poll_slave(1).error(), Error::kBankSwitched);
   chip.simulator.advance(120 * mb4::sim::kPsPerUs);
@@ -186,17 +189,19 @@ TEST(DriverCallErrors, LostInstructionBesideFrames_IsCorrupted) {
   prepare(chip, State::kAutomatic);
   ASSERT_TRUE(chip.device.control().read_registers({1, 0}, 0x44, buffer).ok());
   chip.bus.plan({FaultKind::kLost, 3, 3, 0});  // request, reading, witness, instruction
-  EXPECT_EQ(chip.device.control().begin_read({1, 0}, 0x46, 1).error(), Error::kCorrupted);
-  EXPECT_EQ(chip.device.control().poll().error(), Error::kWrongMode);
+  EXPECT_EQ(mb4_c::PolledAccess(chip.device).begin_read({1, 0}, 0x46, 1).error(),
+            Error::kCorrupted);
+  EXPECT_EQ(mb4_c::PolledAccess(chip.device).poll().error(), Error::kWrongMode);
   // A status that is disturbed once does not hide the access.
   chip.bus.plan({FaultKind::kFlipMiso, 3, 3, 13});  // REGEND: bit 2 of the second byte
-  EXPECT_TRUE(chip.device.control().begin_read({1, 0}, 0x46, 1).ok());
+  EXPECT_TRUE(mb4_c::PolledAccess(chip.device).begin_read({1, 0}, 0x46, 1).ok());
   EXPECT_EQ(chip.bus.count(), 5U);
   EXPECT_TRUE(chip.device.control().abort().ok());
   // MISO stuck from the instruction on.
   ASSERT_TRUE(chip.device.automatic().restart().ok());
   chip.bus.plan({FaultKind::kMisoLow, 3, 4, 0});
-  EXPECT_EQ(chip.device.control().begin_read({1, 0}, 0x46, 1).error(), Error::kNotDetected);
+  EXPECT_EQ(mb4_c::PolledAccess(chip.device).begin_read({1, 0}, 0x46, 1).error(),
+            Error::kNotDetected);
   EXPECT_TRUE(chip.device.control().abort().ok());
 }
 
@@ -205,9 +210,9 @@ TEST(DriverCallErrors, FlippedRegisterBit_IsCorrupted) {
     FaultyChip chip(kEncoder);
     prepare(chip, State::kReadEnded);
     chip.bus.plan({FaultKind::kFlipMiso, transfer, transfer, 20});
-    EXPECT_EQ(chip.device.control().take(buffer).error(), Error::kCorrupted);
+    EXPECT_EQ(mb4_c::PolledAccess(chip.device).take(buffer).error(), Error::kCorrupted);
     // The disturbed bit may have made a write of the reading.
-    EXPECT_EQ(chip.device.control().take(buffer).error(), Error::kInvalidArgument);
+    EXPECT_EQ(mb4_c::PolledAccess(chip.device).take(buffer).error(), Error::kInvalidArgument);
   }
 }
 

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <string>
 
+#include "drivers/c/mb4_c_access.hpp"
 #include "tests/driver/rtl/fault_bus.hpp"
 #include "tests/support/chip_fixture.hpp"
 
@@ -46,10 +47,10 @@ inline void prepare(FaultyChip& chip, State state) {
     chip.simulator.advance(250 * mb4::sim::kPsPerUs);
   }
   if (state == State::kReadBegun || state == State::kReadEnded) {
-    ASSERT_TRUE(chip.device.control().begin_read({1, 0}, 0x44, 4).ok());
+    ASSERT_TRUE(mb4_c::PolledAccess(chip.device).begin_read({1, 0}, 0x44, 4).ok());
   }
   while (state == State::kReadEnded) {
-    const mb4::Result<bool> ended = chip.device.control().poll();
+    const mb4::Result<bool> ended = mb4_c::PolledAccess(chip.device).poll();
     ASSERT_TRUE(ended.ok());
     if (*ended) break;
   }

@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "drivers/c/mb4_c_access.hpp"
 #include "tests/driver/rtl/fault_bus.hpp"
 #include "tests/support/chip_fixture.hpp"
 
@@ -100,27 +101,29 @@ const Call kCalls[] = {
      kNo, kNo},
     {"BeginRead", State::kConfigured,
      [](FaultyChip& c) {
-       return c.device.control().begin_read({1, 0}, 0x44, 4).error();
+       return mb4_c::PolledAccess(c.device).begin_read({1, 0}, 0x44, 4).error();
      },
      kNo, kNo},
     {"BeginWrite", State::kConfigured,
      [](FaultyChip& c) {
-       return c.device.control().begin_write({1, 0}, 0x60, kBytes).error();
+       return mb4_c::PolledAccess(c.device).begin_write({1, 0}, 0x60, kBytes).error();
      },
      kNo, kNo},
     {"BeginCommand", State::kConfigured,
-     [](FaultyChip& c) { return c.device.control().begin_command(activate()).error(); }, kNo, kNo},
+     [](FaultyChip& c) { return mb4_c::PolledAccess(c.device).begin_command(activate()).error(); },
+     kNo, kNo},
     {"ControlPoll", State::kReadBegun,
      [](FaultyChip& c) {
        Error error = Error::kNone;
        for (int i = 0; i < 3 && error == Error::kNone; ++i) {
-         error = c.device.control().poll().error();
+         error = mb4_c::PolledAccess(c.device).poll().error();
        }
        return error;
      },
      kNo, kNo, 0, 0, true},
     {"Take", State::kReadEnded,
-     [](FaultyChip& c) { return bytes(c.device.control().take(buffer), kSerial); }, kNo, kNo},
+     [](FaultyChip& c) { return bytes(mb4_c::PolledAccess(c.device).take(buffer), kSerial); }, kNo,
+     kNo},
     {"Abort", State::kReadBegun, [](FaultyChip& c) { return c.device.control().abort().error(); },
      kNo, kNo},
     {"ReadRegisters", State::kConfigured,

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <string>
 
+#include "drivers/c/mb4_c_access.hpp"
 #include "sim/lines/clocked/clocked_line.hpp"
 #include "sim/lines/registers/control_slave.hpp"
 #include "tests/support/chip_fixture.hpp"
@@ -256,11 +257,11 @@ TEST_P(DriverControlBeside, AutomaticFrames_ArePolledWholeAndInOrder) {
   unsigned switched = 0;
   for (unsigned access = 0; access < 60; ++access) {
     const std::array<std::uint8_t, 1> data{static_cast<std::uint8_t>(access)};
-    ASSERT_TRUE(chip.device.control().begin_write({1, 0}, 0x50, data).ok());
+    ASSERT_TRUE(mb4_c::PolledAccess(chip.device).begin_write({1, 0}, 0x50, data).ok());
     std::uint64_t last = 0;
     bool first = true;
     for (;;) {
-      const mb4::Result<bool> ended = chip.device.control().poll();
+      const mb4::Result<bool> ended = mb4_c::PolledAccess(chip.device).poll();
       ASSERT_TRUE(ended.ok()) << mb4::to_string(ended.error());
       Frame frame;
       const mb4::Result<void> read = chip.device.automatic().poll(frame);

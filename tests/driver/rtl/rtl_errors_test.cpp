@@ -11,6 +11,7 @@
 #include <optional>
 #include <string>
 
+#include "drivers/c/mb4_c_access.hpp"
 #include "sim/lines/clocked/clocked_line.hpp"
 #include "tests/driver/rtl/fault_bus.hpp"
 #include "tests/driver/rtl/rtl_calls.hpp"
@@ -32,9 +33,11 @@ TEST(DriverCallErrors, NotConfigured_TouchesNothing) {
   EXPECT_EQ(chip.device.read_all(frame).error(), Error::kNotConfigured);
   EXPECT_EQ(chip.device.automatic().start().error(), Error::kNotConfigured);
   EXPECT_EQ(chip.device.automatic().restart().error(), Error::kNotConfigured);
-  EXPECT_EQ(chip.device.control().begin_read({1, 0}, 0, 1).error(), Error::kNotConfigured);
-  EXPECT_EQ(chip.device.control().begin_write({1, 0}, 0, kBytes).error(), Error::kNotConfigured);
-  EXPECT_EQ(chip.device.control().begin_command({}).error(), Error::kNotConfigured);
+  EXPECT_EQ(mb4_c::PolledAccess(chip.device).begin_read({1, 0}, 0, 1).error(),
+            Error::kNotConfigured);
+  EXPECT_EQ(mb4_c::PolledAccess(chip.device).begin_write({1, 0}, 0, kBytes).error(),
+            Error::kNotConfigured);
+  EXPECT_EQ(mb4_c::PolledAccess(chip.device).begin_command({}).error(), Error::kNotConfigured);
   EXPECT_EQ(chip.device.control().read_registers({1, 0}, 0, buffer).error(), Error::kNotConfigured);
   EXPECT_EQ(chip.device.control().write_registers({1, 0}, 0, kBytes).error(),
             Error::kNotConfigured);
@@ -51,7 +54,7 @@ TEST(DriverCallErrors, WrongMode_TouchesNothing) {
   EXPECT_EQ(chip.device.automatic().poll(frame).error(), Error::kWrongMode);
   EXPECT_EQ(chip.device.automatic().poll_slave(1).error(), Error::kWrongMode);
   EXPECT_EQ(chip.device.automatic().next(frame).error(), Error::kWrongMode);
-  EXPECT_EQ(chip.device.control().poll().error(), Error::kWrongMode);
+  EXPECT_EQ(mb4_c::PolledAccess(chip.device).poll().error(), Error::kWrongMode);
   EXPECT_EQ(chip.bus.count(), 0U);
   ASSERT_TRUE(chip.device.automatic().start().ok());
   chip.bus.plan({});
@@ -73,9 +76,9 @@ TEST(DriverCallErrors, Busy_TouchesNothing) {
   EXPECT_EQ(chip.device.automatic().start().error(), Error::kBusy);
   EXPECT_EQ(chip.device.automatic().stop().error(), Error::kBusy);
   EXPECT_EQ(chip.device.automatic().restart().error(), Error::kBusy);
-  EXPECT_EQ(chip.device.control().begin_read({1, 0}, 0, 1).error(), Error::kBusy);
-  EXPECT_EQ(chip.device.control().begin_write({1, 0}, 0, kBytes).error(), Error::kBusy);
-  EXPECT_EQ(chip.device.control().begin_command({}).error(), Error::kBusy);
+  EXPECT_EQ(mb4_c::PolledAccess(chip.device).begin_read({1, 0}, 0, 1).error(), Error::kBusy);
+  EXPECT_EQ(mb4_c::PolledAccess(chip.device).begin_write({1, 0}, 0, kBytes).error(), Error::kBusy);
+  EXPECT_EQ(mb4_c::PolledAccess(chip.device).begin_command({}).error(), Error::kBusy);
   EXPECT_EQ(chip.device.control().read_registers({1, 0}, 0, buffer).error(), Error::kBusy);
   EXPECT_EQ(chip.device.control().write_registers({1, 0}, 0, kBytes).error(), Error::kBusy);
   EXPECT_EQ(chip.device.control().send({}).error(), Error::kBusy);
@@ -93,14 +96,15 @@ TEST(DriverCallErrors, InvalidArgument_TouchesNothing) {
   EXPECT_EQ(device.automatic().poll_slave(9).error(), Error::kInvalidArgument);
   EXPECT_EQ(device.clear_valid(0).error(), Error::kInvalidArgument);
   EXPECT_EQ(device.clear_valid(9).error(), Error::kInvalidArgument);
-  EXPECT_EQ(device.control().begin_read({3, 0}, 0, 1).error(), Error::kInvalidArgument);
-  EXPECT_EQ(device.control().begin_write({1, 8}, 0, kBytes).error(), Error::kInvalidArgument);
-  EXPECT_EQ(device.control().take(buffer).error(), Error::kInvalidArgument);
+  EXPECT_EQ(mb4_c::PolledAccess(device).begin_read({3, 0}, 0, 1).error(), Error::kInvalidArgument);
+  EXPECT_EQ(mb4_c::PolledAccess(device).begin_write({1, 8}, 0, kBytes).error(),
+            Error::kInvalidArgument);
+  EXPECT_EQ(mb4_c::PolledAccess(device).take(buffer).error(), Error::kInvalidArgument);
   EXPECT_EQ(device.control().read_registers({1, 0}, 125, buffer).error(), Error::kInvalidArgument);
   EXPECT_EQ(device.control().write_registers({1, 0}, 125, kBytes).error(), Error::kInvalidArgument);
   mb4::Command reserved;
   reserved.code = 4;
-  EXPECT_EQ(device.control().begin_command(reserved).error(), Error::kInvalidArgument);
+  EXPECT_EQ(mb4_c::PolledAccess(device).begin_command(reserved).error(), Error::kInvalidArgument);
   EXPECT_EQ(device.control().send(reserved).error(), Error::kInvalidArgument);
   EXPECT_EQ(mb4::scan_bus(device, 3, {}).error(), Error::kInvalidArgument);
   EXPECT_EQ(device.fields().modify<regs::FREQS>(32).error(), Error::kInvalidArgument);
@@ -148,7 +152,7 @@ TEST(DriverCallErrors, VerifyBesideFramesAndControl_IsGood) {
   FaultyChip chip(kEncoder);
   prepare(chip, State::kAutomatic);
   EXPECT_TRUE(chip.device.verify().ok());
-  ASSERT_TRUE(chip.device.control().begin_read({1, 0}, 0x44, 4).ok());
+  ASSERT_TRUE(mb4_c::PolledAccess(chip.device).begin_read({1, 0}, 0x44, 4).ok());
   EXPECT_TRUE(chip.device.verify().ok());
 }
 

@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "drivers/c/mb4_c_access.hpp"
 #include "sim/lines/clocked/clocked_line.hpp"
 #include "tests/driver/rtl/fault_bus.hpp"
 #include "tests/support/chip_fixture.hpp"
@@ -92,7 +93,7 @@ class Drive {
     EXPECT_TRUE(read().has_value());
     if (setup.way == Way::kPollBeside || setup.way == Way::kPollUnheld) {
       // The last register of many: frames for as long as the test needs.
-      EXPECT_TRUE(chip.device.control().begin_read({1, 0}, 0x00, 64).ok());
+      EXPECT_TRUE(mb4_c::PolledAccess(chip.device).begin_read({1, 0}, 0x00, 64).ok());
       EXPECT_TRUE(read().has_value());
     }
   }

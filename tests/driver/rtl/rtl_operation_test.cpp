@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "drivers/c/mb4_c_access.hpp"
 #include "sim/lines/clocked/actuator.hpp"
 #include "sim/lines/clocked/clocked_line.hpp"
 #include "tests/driver/rtl/protocol_bus.hpp"
@@ -568,7 +569,7 @@ TEST(DriverOperationUse, WrongUse_PlansNothing) {
   command.channels = 4;
   EXPECT_EQ(chip.device.control().plan_command(op, command).error(), Error::kInvalidArgument);
   EXPECT_EQ(chip.bus.count(), 0U);
-  ASSERT_TRUE(chip.device.control().begin_read({1, 0}, 0x44, 1).ok());
+  ASSERT_TRUE(mb4_c::PolledAccess(chip.device).begin_read({1, 0}, 0x44, 1).ok());
   for (unsigned kind = 0; kind < kKinds; ++kind) {
     EXPECT_EQ(plan(chip, op, kind, {1, 0}).error(), kind == 2 ? Error::kNone : Error::kBusy)
         << kind;

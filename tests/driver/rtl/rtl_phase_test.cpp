@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <string>
 
+#include "drivers/c/mb4_c_access.hpp"
 #include "sim/lines/clocked/clocked_line.hpp"
 #include "sim/lines/registers/control_slave.hpp"
 #include "tests/support/chip_fixture.hpp"
@@ -67,7 +68,7 @@ Seen run(const Loop& loop, unsigned phase) {
   sim::Time tick = chip.simulator.now() + 2 * period + period * phase / kPhases;
   chip.simulator.run_until(tick);
   static_cast<void>(chip.device.automatic().poll_slave(1));
-  EXPECT_TRUE(chip.device.control().begin_read({1, 0}, 0x44, 15).ok());
+  EXPECT_TRUE(mb4_c::PolledAccess(chip.device).begin_read({1, 0}, 0x44, 15).ok());
   Seen seen;
   std::uint64_t last = 0;
   for (bool running = true; running && seen.ticks < 300;) {
@@ -83,12 +84,12 @@ Seen run(const Loop& loop, unsigned phase) {
     } else {
       seen.last = reading.error();
     }
-    const mb4::Result<bool> ended = chip.device.control().poll();
+    const mb4::Result<bool> ended = mb4_c::PolledAccess(chip.device).poll();
     EXPECT_TRUE(ended.ok()) << mb4::to_string(ended.error());
     running = ended && !*ended;
   }
   std::array<std::uint8_t, 15> bytes{};
-  EXPECT_TRUE(chip.device.control().take(bytes).ok()) << "phase " << phase;
+  EXPECT_TRUE(mb4_c::PolledAccess(chip.device).take(bytes).ok()) << "phase " << phase;
   EXPECT_EQ(bytes[1], 0xD9);
   EXPECT_EQ(clocked(chip.simulator.slave(1))->control()->counters().reads, 15U);
   return seen;

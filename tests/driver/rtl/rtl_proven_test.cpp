@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "drivers/c/mb4_c_access.hpp"
 #include "sim/lines/clocked/clocked_line.hpp"
 #include "tests/driver/rtl/c99_read.hpp"
 #include "tests/driver/rtl/fault_bus.hpp"
@@ -179,7 +180,7 @@ TEST(DriverProvenStop, OneFault_ChipStopsNevertheless) {
       ASSERT_TRUE(chip.device.configure(config()).ok());
       ASSERT_TRUE(chip.device.automatic().start().ok());
       if (kind == 2) {
-        ASSERT_TRUE(chip.device.control().begin_read({1, 0}, 0x60, 1).ok());
+        ASSERT_TRUE(mb4_c::PolledAccess(chip.device).begin_read({1, 0}, 0x60, 1).ok());
       }
       chip.simulator.advance(150 * sim::kPsPerUs);
     };

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "drivers/c/mb4_c_access.hpp"
 #include "enc/trace.hpp"
 #include "masters/mb4/sim_bus.hpp"
 #include "mb4/mb4.hpp"
@@ -176,7 +177,7 @@ TEST_P(DriverSlaveError, BesideAnAccess_IsElseAGoodRead) {
     for (const std::uint32_t flags : {3U, 1U}) {
       Encoder encoder(GetParam(), flags, hold);
       encoder.start();
-      auto steps = encoder.device.control();
+      mb4_c::PolledAccess steps(encoder.device);
       ASSERT_TRUE(steps.begin_read({1, 0}, 0x20, 1).ok());
       std::vector<Error> told;
       for (unsigned n = 0; n < 20; ++n) {

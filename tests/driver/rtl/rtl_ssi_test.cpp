@@ -11,6 +11,7 @@
 #include <optional>
 #include <string>
 
+#include "drivers/c/mb4_c_access.hpp"
 #include "sim/lines/clocked/clocked_line.hpp"
 #include "sim/lines/registers/control_slave.hpp"
 #include "tests/driver/rtl/protocol_bus.hpp"
@@ -164,7 +165,7 @@ TEST_P(DriverExtendedSsi, ReadAndScan_AreUnsupported) {
     ASSERT_TRUE(chip.device.automatic().start().ok());
   }
   chip.bus.plan({});
-  const mb4::Result<void> read = chip.device.control().begin_read({1, 0}, 0x30, 1);
+  const mb4::Result<void> read = mb4_c::PolledAccess(chip.device).begin_read({1, 0}, 0x30, 1);
   EXPECT_EQ(read.error(), Error::kUnsupported);
   EXPECT_EQ(read.info().field, mb4::ConfigField::kChannelProtocol);
   EXPECT_EQ(read.info().number, 1);

@@ -11,6 +11,7 @@
 #include <optional>
 #include <string>
 
+#include "drivers/c/mb4_c_access.hpp"
 #include "sim/lines/clocked/clocked_line.hpp"
 #include "tests/driver/rtl/fault_bus.hpp"
 #include "tests/support/chip_fixture.hpp"
@@ -113,7 +114,7 @@ TEST_P(DriverStale, NothingStored_IsNeverAnOldPosition) {
           if (way == 1 && at % 8 == 0) {
             static_cast<void>(chip.device.control().abort());
             ASSERT_TRUE(chip.device.automatic().restart().ok());
-            ASSERT_TRUE(chip.device.control().begin_read({1, 0}, 0x00, 64).ok());
+            ASSERT_TRUE(mb4_c::PolledAccess(chip.device).begin_read({1, 0}, 0x00, 64).ok());
           }
           for (unsigned i = 0; i < 5; ++i) {
             chip.simulator.advance(110 * sim::kPsPerUs);

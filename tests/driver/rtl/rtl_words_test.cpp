@@ -11,6 +11,7 @@
 #include <random>
 #include <string>
 
+#include "drivers/c/mb4_c_access.hpp"
 #include "mb4/words/page.hpp"
 #include "mb4/words/snapshots.hpp"
 #include "tests/support/chip_fixture.hpp"
@@ -151,7 +152,7 @@ TEST_P(DriverWords, RegisterAccessBesideSnapshots_LosesNothing) {
   ASSERT_TRUE(chip.device.configure(config).ok());
   ASSERT_TRUE(chip.device.automatic().start().ok());
   ASSERT_TRUE(chip.snapshots.begin(config).ok());
-  auto control = chip.device.control();
+  mb4_c::PolledAccess control(chip.device);
   ASSERT_TRUE(control.begin_read({1, 0}, 0x44, 2).ok());
   unsigned readings = 0;
   for (bool ended = false; !ended;) {

@@ -21,6 +21,7 @@
 #include <utility>
 #include <vector>
 
+#include "drivers/c/mb4_c_access.hpp"
 #include "mb4/mb4.hpp"
 #include "mb4sim/simulator.hpp"
 #include "sim/lines/clocked/actuator.hpp"
@@ -664,7 +665,7 @@ class Rig {
         simulator.advance(20 * sim::kPsPerUs);
       }
       call_stack().run(bus, [&] {
-        const Result<bool> over = device.control().poll();
+        const Result<bool> over = mb4_c::PolledAccess(device).poll();
         ends = !over || *over;
         if (ends) ended(over.error());
       });
@@ -674,7 +675,7 @@ class Rig {
 
   void act() {
     auto automatic = device.automatic();
-    auto control = device.control();
+    mb4_c::PolledAccess control(device);
     const mb4::SlaveAddress slave{1, id()};
     const mb4::Span<const std::uint8_t> values(values_.data(), values_.size());
     const std::uint64_t word = setup_.zeros ? 0 : 0x12345678;
@@ -1011,7 +1012,7 @@ class Rig {
   }
 
   void prepare() {
-    auto control = device.control();
+    mb4_c::PolledAccess control(device);
     const std::uint8_t slave = id();
     std::array<std::uint8_t, 2> bytes{0x11, 0x22};
     Result<void> done;
@@ -1042,7 +1043,7 @@ class Rig {
   void poll_access() {
     if (!access_) return;
     call_stack().run(bus, [this] {
-      const Result<bool> ended = device.control().poll();
+      const Result<bool> ended = mb4_c::PolledAccess(device).poll();
       if (ended && !*ended) return;
       access_ = false;
       note(std::string("the access has ended: ") + mb4::to_string(ended.error()));

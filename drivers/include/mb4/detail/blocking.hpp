@@ -156,39 +156,6 @@ struct Blocking {
 
   // ---- Control communication ----
 
-  // Makes the steps up to the next look at the status, or to the end. Success: no error yet.
-  [[gnu::noinline]] static Result<void> until_poll(ChipState& chip, const Result<void>& planned) {
-    if (!planned) {
-      return planned;
-    }
-    while (!step(chip, chip.own)) {
-      if (Procedures::polls(chip.own)) {
-        return {};
-      }
-    }
-    return chip.own.result();
-  }
-
-  static Result<bool> poll_access(ChipState& chip) {
-    Operation& op = chip.own;
-    if (!chip.control_runs() || chip.control.owner != &op) {
-      return Error::kWrongMode;
-    }
-    if (Procedures::seen_running(chip, op, chip.ask_us(chip))) {
-      return false;
-    }
-    const Result<void> done = until_poll(chip, {});
-    return done ? Result<bool>(!chip.control_runs()) : Result<bool>(done.failure());
-  }
-
-  static Result<void> take(ChipState& chip, std::uint8_t* out, std::size_t count) {
-    if (count == 0 || count > chip.control.readable) {
-      return Error::kInvalidArgument;
-    }
-    Procedures::plan_take(chip, chip.own, out, count);
-    return run(chip, chip.own);
-  }
-
   // Writes `size` registers; if `data` is null it reads them into `out`.
   [[gnu::noinline]] static Result<void> in_parts(ChipState& chip, SlaveAddress slave,
                                                  std::uint8_t address, const std::uint8_t* data,

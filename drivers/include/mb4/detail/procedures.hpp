@@ -174,7 +174,7 @@ struct Procedures {
                                     std::uint8_t ids_2);
   static void plan_take(ChipState& chip, Operation& op, std::uint8_t* out, std::size_t count);
 
-  // ---- An access whose caller polls: control_steps.hpp ----
+  // ---- An access whose caller polls: c/mb4_c_access.hpp ----
 
   // The access has begun, and the next step reads the status for the first time after a frame.
   static bool polls(const Operation& op) { return op.step_ != nullptr && op.stage_ == kPoll; }

@@ -95,9 +95,7 @@ class RegisterAccess final : public Bench {
     while (simulator_.now() < end) {
       if (!running_) begin();
       simulator_.advance(kPoll);
-      const Result<bool> ended = device_.control().poll();
-      require(ended, "register access");
-      if (*ended) take();
+      if (device_.finish(access_, access_.run(bus_), clock_.now_us())) end_access();
     }
   }
 
@@ -113,18 +111,19 @@ class RegisterAccess final : public Bench {
   void begin() {
     const SlaveAddress slave{static_cast<std::uint8_t>(1 + (accesses_ & 1U)),
                              static_cast<std::uint8_t>((accesses_ / 2) % kSlavesPerChannel)};
-    require(device_.control().begin_read(slave, kFirstRegister, kMaxRegistersPerAccess),
+    require(device_.control().plan_read(access_, slave, kFirstRegister, values_),
             "register access");
     running_ = true;
   }
 
-  void take() {
-    std::array<std::uint8_t, kMaxRegistersPerAccess> values{};
-    require(device_.control().take(values), "register access");
+  void end_access() {
+    require(access_.result(), "register access");
     running_ = false;
     ++accesses_;
   }
 
+  Operation access_;
+  std::array<std::uint8_t, kMaxRegistersPerAccess> values_{};
   std::uint64_t accesses_ = 0;
   bool running_ = false;
 };
