@@ -97,27 +97,7 @@ void mb4_open(mb4_device* device, mb4_transfer transfer, void* transfer_context,
   ::new (Place{device->opaque}) Opened(transfer, transfer_context, now_us, clock_context);
 }
 
-mb4_config mb4_config_default(void) {
-  const mb4::Config from;
-  mb4_config config = {};
-  config.f_clk_hz = from.f_clk_hz;
-  config.frame_start = static_cast<std::uint8_t>(from.frame_start);
-  config.spi_check = static_cast<std::uint8_t>(from.spi_check);
-  config.register_divider = from.register_divider;
-  config.register_timeout_us = from.register_timeout_us;
-  config.hold_beside_access = from.hold_beside_access;
-  config.activate_at_initialize = from.activate_at_initialize;
-  config.pin_period_us = from.pin_period_us;
-  for (std::size_t i = 0; i < mb4::kChannels; ++i) {
-    config.protocol[i] = static_cast<std::uint8_t>(from.channels[i].protocol);
-  }
-  for (std::size_t i = 0; i < mb4::kSlaves; ++i) {
-    config.slaves[i].flags = static_cast<std::uint8_t>(from.slaves[i].flags);
-    config.slaves[i].crc_polynomial = from.slaves[i].crc_polynomial;
-    config.slaves[i].stop_bit = from.slaves[i].stop_bit;
-  }
-  return config;
-}
+mb4_config mb4_config_default(void) { return to_c(mb4::Config()); }
 
 uint32_t mb4_ma_hz_at_most(uint32_t f_clk_hz, uint32_t limit_hz) {
   return mb4::ma_hz_at_most(f_clk_hz, limit_hz);

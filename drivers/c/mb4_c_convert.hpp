@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Converts between the types of mb4.h and those of the driver. Only mb4_c.cpp includes it.
+// Converts between the types of mb4.h and those of the driver, for the C binding and for Python.
 
 #ifndef MB4_C_CONVERT_HPP_
 #define MB4_C_CONVERT_HPP_
@@ -60,6 +60,36 @@ inline mb4_result store(const mb4::Result<void>& result, const mb4::Frame& frame
   }
   out->one_frame = frame.one_frame;
   return to_c(result);
+}
+
+inline mb4_config to_c(const mb4::Config& config) {
+  const auto number = [](auto value) { return static_cast<std::uint8_t>(value); };
+  mb4_config out{};
+  out.f_clk_hz = config.f_clk_hz;
+  out.ma_hz = config.ma_hz;
+  out.frame_period_clk = config.frame_period_clk;
+  out.frame_timeout_us = config.frame_timeout_us;
+  out.register_busy_us = config.register_busy_us;
+  out.clock_source = number(config.clock_source);
+  out.line_interface = number(config.line_interface);
+  out.frame_start = number(config.frame_start);
+  out.spi_check = number(config.spi_check);
+  out.single_bank = config.single_bank;
+  out.hold_cdm = config.hold_cdm;
+  out.mo = config.mo;
+  out.mo_busy = config.mo_busy;
+  out.register_divider = config.register_divider;
+  out.register_timeout_us = config.register_timeout_us;
+  out.hold_beside_access = config.hold_beside_access;
+  out.activate_at_initialize = config.activate_at_initialize;
+  out.pin_period_us = config.pin_period_us;
+  for (std::size_t i = 0; i < mb4::kChannels; ++i) {
+    out.protocol[i] = number(config.channels[i].protocol);
+  }
+  for (std::size_t i = 0; i < mb4::kSlaves; ++i) {
+    out.slaves[i] = mb4::detail::to_c(config.slaves[i]);
+  }
+  return out;
 }
 
 inline mb4::Config from_c(const mb4_config& config) {

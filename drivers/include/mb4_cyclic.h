@@ -3,8 +3,8 @@
  *
  * The read path of a control loop, in C99 and C++: positions of 1 to 8 slaves from automatic
  * frames. Automatic::poll_slave() and poll() are loops over it. A program in C needs this header,
- * mb4.h and the generated mb4_regs.h, and no C++ compiler. There is no heap, static data, callback
- * or clock.
+ * mb4_types.h and the generated mb4_regs.h, and no C++ compiler. There is no heap, static data,
+ * callback or clock.
  *
  * A read is one or more plans. A plan holds SPI frames; the caller makes them, by DMA or otherwise:
  *
@@ -32,7 +32,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "mb4.h"
+#include "mb4_types.h"
 
 /* The same generated register map in either language. */
 #ifdef __cplusplus

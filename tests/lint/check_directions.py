@@ -25,7 +25,7 @@ import sv_widths  # noqa: E402
 DRIVER_LAYERS = (
     ("enc/",),
     ("mb4/bus.hpp", "mb4/crc.hpp", "mb4/error.hpp", "mb4/frequency.hpp", "mb4/position.hpp",
-     "mb4/result.hpp", "mb4/span.hpp", "mb4/version.hpp", "mb4.h"),
+     "mb4/result.hpp", "mb4/span.hpp", "mb4/version.hpp", "mb4_types.h"),
     ("mb4/opcodes.hpp", "mb4/fields.hpp", "mb4/status.hpp", "mb4/parallel_bus.hpp", "mb4/ports/",
      "mb4/words/port.hpp", "mb4/words/memory_bus.hpp", "mb4/detail/spi_frame.hpp", "mb4_cyclic.h"),
     ("mb4/config/", "mb4/config.hpp", "mb4/register_image.hpp", "mb4/slave_address.hpp",
@@ -40,7 +40,7 @@ DRIVER_LAYERS = (
     ("mb4/detail/blocking.hpp",),
     ("mb4/automatic.hpp", "mb4/control.hpp"),
     ("mb4/device.hpp", "mb4/scan.hpp"),
-    ("mb4/mb4.hpp", "mb4/acquisition.hpp"),
+    ("mb4/mb4.hpp", "mb4.h", "mb4/acquisition.hpp"),
 )
 DRIVER_HEADERS = [[f"drivers/include/{name}" for name in layer] for layer in DRIVER_LAYERS]
 DRIVER = tuple(name for layer in DRIVER_HEADERS for name in layer if "/detail/" not in name)
@@ -60,7 +60,7 @@ OTHER_DRIVERS = tuple(master.driver for master in MASTERS if master.driver and m
 # everything.
 MAY_USE = {
     "regmap/": (),
-    "drivers/c/": (*DRIVER, "regmap/"),
+    "drivers/c/": (*DRIVER, "regmap/", "drivers/c/mb4_c_access.hpp"),
     # Calls over the Operation of the device, as those of mb4/control.hpp.
     "drivers/c/mb4_c_access.hpp": (*DRIVER, "drivers/include/mb4/detail/", "regmap/"),
     "drivers/arduino/": (*DRIVER, "regmap/"),
@@ -125,7 +125,9 @@ MAY_USE = {
     **{place: ("tools/", "tools/mb4sim/masters/", "tools/mb4sim/bridge/", "sim/", *DRIVER, "regmap/")
        for place in ("tools/mb4sim/bridge/", "tools/mb4sim/commands/bridge_command.cpp",
                      "tools/mb4sim/commands/spi_command.cpp",
-                     "tools/mb4sim/commands/spidev_command.cpp", "tools/python/native/")},
+                     "tools/mb4sim/commands/spidev_command.cpp")},
+    # Its package has the C binding.
+    "tools/python/native/": ("tools/", "tools/mb4sim/masters/", "sim/", *DRIVER, "drivers/c/", "regmap/"),
     "examples/": ("sim/", *DRIVER),
     "examples/clb/": ("sim/", "drivers/include/pm_bissc_include.h"),
     "examples/pru/": ("sim/", "drivers/include/biss_pru.h", "regmap/"),

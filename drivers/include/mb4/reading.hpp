@@ -67,15 +67,15 @@ struct Reading {
 
 namespace detail {
 
+constexpr mb4_slave_config to_c(const SlaveConfig& from) {
+  return {from.enabled,   from.data_bits,      static_cast<std::uint8_t>(from.flags),
+          from.crc_start, from.crc_polynomial, from.gray,
+          from.actuator,  from.stop_bit};
+}
+
 // `slave` 1..8 of a valid configuration.
 inline void set_word(const Config& config, std::uint8_t slave, mb4_word& word) {
-  const SlaveConfig& from = config.slaves[slave - 1U];
-  mb4_slave_config one{};
-  one.data_bits = from.data_bits;
-  one.flags = static_cast<std::uint8_t>(from.flags);
-  one.crc_start = from.crc_start;
-  one.crc_polynomial = from.crc_polynomial;
-  one.gray = from.gray;
+  const mb4_slave_config one = to_c(config.slaves[slave - 1U]);
   mb4_word_set(&word, slave, &one, static_cast<std::uint8_t>(config.spi_check));
   if (protocol_of(config, slave) == Protocol::kBissC) {
     mb4_word_biss_c(&word, &one, channel_of(config, slave));

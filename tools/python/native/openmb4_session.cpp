@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "connected_slaves.hpp"
+#include "drivers/c/mb4_c_convert.hpp"
 #include "masters/mb4/chip_setup.hpp"
 #include "sim/masters/master.hpp"
 #include "sim/model/wave_view.hpp"
@@ -36,26 +37,6 @@ uint32_t now_us(void* context) {
 template <typename T>
 uint8_t number(T value) {
   return static_cast<uint8_t>(value);
-}
-
-mb4_config to_c(const mb4::Config& from) {
-  mb4_config to = mb4_config_default();
-  to.f_clk_hz = from.f_clk_hz;
-  to.ma_hz = from.ma_hz;
-  to.frame_timeout_us = from.frame_timeout_us;
-  to.clock_source = number(from.clock_source);
-  to.spi_check = number(from.spi_check);
-  to.mo = from.mo;
-  to.mo_busy = from.mo_busy;
-  for (size_t i = 0; i < std::size(to.protocol); ++i) {
-    to.protocol[i] = number(from.channels[i].protocol);
-  }
-  for (size_t i = 0; i < std::size(to.slaves); ++i) {
-    const mb4::SlaveConfig& slave = from.slaves[i];
-    to.slaves[i] = {slave.enabled,        slave.data_bits, number(slave.flags), slave.crc_start,
-                    slave.crc_polynomial, slave.gray,      slave.actuator,      slave.stop_bit};
-  }
-  return to;
 }
 
 mb4::sim::Scenario read(const char* scenario, bool is_path) {
@@ -127,7 +108,7 @@ size_t openmb4_read(openmb4_session* session, bool automatic, openmb4_row* rows,
 int openmb4_config(const char* scenario, bool is_path, mb4_config* config, char* error,
                    size_t error_size) {
   return told(MB4SIM_ERROR_VALUE, error, error_size,
-              [&] { *config = to_c(mb4::tool::make_config(read(scenario, is_path))); });
+              [&] { *config = mb4_c::to_c(mb4::tool::make_config(read(scenario, is_path))); });
 }
 
 int openmb4_record(mb4sim* sim, const char* const* name, const int* place, const unsigned* channel,

@@ -59,7 +59,7 @@ def _declarations(name: str) -> str:
     return text.replace("MB4_RESULT ", "mb4_result ")
 
 
-_headers = [_declarations(name) for name in ("mb4sim.h", "mb4.h", "openmb4_session.h")]
+_headers = [_declarations(name) for name in ("mb4sim.h", "mb4_types.h", "mb4.h", "openmb4_session.h")]
 ffi = cffi.FFI()
 ffi.cdef("\n".join(_headers))
 lib: Any = ffi.dlopen(str(HERE / "libopenmb4.so"))

@@ -6,7 +6,7 @@
 /// Each code that mb4_cyclic.h returns has the error of its number and name.
 #[test]
 fn every_code_of_the_header_is_named() {
-    let names = include_str!("../../../../include/mb4.h");
+    let names = include_str!("../../../../include/mb4_types.h");
     let header = include_str!("../../../../include/mb4_cyclic.h");
     let library = include_str!("../../src/lib.rs");
     let mut found = 0;
