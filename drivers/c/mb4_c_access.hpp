@@ -17,7 +17,6 @@
 #include "mb4/device.hpp"
 #include "mb4/result.hpp"
 #include "mb4/slave_address.hpp"
-#include "mb4/span.hpp"
 
 namespace mb4_c {
 

@@ -11,7 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "mb4/span.hpp"
+#include "mb4/result.hpp"
 
 namespace board {
 

@@ -4,11 +4,12 @@
 #
 # Uses drivers/ without the rest of the build.
 #
-#   standalone.sh beside_regmap|copied_with_header|copied_without_header|headers_alone CMAKE ROOT
+#   standalone.sh beside_regmap|copied_with_header|copied_without_header|headers_alone|one_header CMAKE ROOT
 #
 # The first two must configure and build a program against mb4::driver, the third must stop with a
 # message that says what is missing. headers_alone copies only what drivers/README.md names for use
-# without CMake, and compiles a program with it.
+# without CMake, and compiles a program with it. one_header
+# does so with the header that tools/one_header.py makes, in two units of a program that reads.
 
 set -u
 case=$1
@@ -30,6 +31,39 @@ if [ "$case" = headers_alone ]; then
   done
   cp "$root/regmap/generated/mb4/mb4_regs.hpp" "$work/include/"
   "${CXX:-c++}" -std=c++17 -Wall -Wextra -I "$work/include" "$work/main.cpp" -o "$work/main"
+  exit
+fi
+
+if [ "$case" = one_header ]; then
+  mkdir "$work/include"
+  "$root/tools/one_header.py" "$work/include/openmb4.hpp" mb4/words/snapshots.hpp mb4/ports/spidev.hpp || exit 1
+  if grep -n '#include "' "$work/include/openmb4.hpp"; then
+    echo "openmb4.hpp includes another header of the driver"
+    exit 1
+  fi
+  cat > "$work/main.cpp" << END
+#include "openmb4.hpp"
+int position(mb4::Device<mb4::FunctionBus, mb4::FunctionClock>& device);
+int main() {
+  const auto fails = [](void*, const std::uint8_t*, std::uint8_t*, std::size_t) { return false; };
+  mb4::FunctionBus bus(fails, nullptr);
+  mb4::FunctionClock clock([](void*) -> std::uint32_t { return 0; }, nullptr);
+  mb4::Device<mb4::FunctionBus, mb4::FunctionClock> device(bus, clock);
+  return position(device) == static_cast<int>(mb4::Error::kNotConfigured) ? 0 : 1;
+}
+END
+  cat > "$work/other.cpp" << END
+#include "openmb4.hpp"
+#include "openmb4.hpp"
+int position(mb4::Device<mb4::FunctionBus, mb4::FunctionClock>& device) {
+  static mb4::Operation operation;
+  static std::array<std::uint8_t, 4> data;
+  if (device.control().plan_read(operation, {1, 0}, 0x78, data)) return 0;
+  return static_cast<int>(device.read_frame(1).error());
+}
+END
+  "${CXX:-c++}" -std=c++17 -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror -I "$work/include" \
+    "$work/main.cpp" "$work/other.cpp" -o "$work/main" && "$work/main"
   exit
 fi
 

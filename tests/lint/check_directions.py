@@ -25,7 +25,7 @@ import sv_widths  # noqa: E402
 DRIVER_LAYERS = (
     ("enc/",),
     ("mb4/bus.hpp", "mb4/crc.hpp", "mb4/error.hpp", "mb4/frequency.hpp", "mb4/position.hpp",
-     "mb4/result.hpp", "mb4/span.hpp", "mb4/version.hpp", "mb4_types.h"),
+     "mb4/result.hpp", "mb4/version.hpp", "mb4_types.h"),
     ("mb4/opcodes.hpp", "mb4/fields.hpp", "mb4/status.hpp", "mb4/parallel_bus.hpp", "mb4/ports/",
      "mb4/words/port.hpp", "mb4/words/memory_bus.hpp", "mb4/detail/spi_frame.hpp", "mb4_cyclic.h"),
     ("mb4/config/", "mb4/config.hpp", "mb4/register_image.hpp", "mb4/slave_address.hpp",
@@ -40,7 +40,7 @@ DRIVER_LAYERS = (
     ("mb4/detail/blocking.hpp",),
     ("mb4/automatic.hpp", "mb4/control.hpp"),
     ("mb4/device.hpp", "mb4/scan.hpp"),
-    ("mb4/mb4.hpp", "mb4.h", "mb4/acquisition.hpp"),
+    ("mb4/mb4.hpp", "mb4.h"),
 )
 DRIVER_HEADERS = [[f"drivers/include/{name}" for name in layer] for layer in DRIVER_LAYERS]
 DRIVER = tuple(name for layer in DRIVER_HEADERS for name in layer if "/detail/" not in name)
@@ -308,7 +308,7 @@ def self_test():
         "sim/include/mb4sim/a.hpp": "", "sim/lines/l.hpp": "", "sim/lines/biss/b.hpp": "",
         "sim/lines/clocked/clocked_end.hpp": "", "sim/lines/clocked/c.hpp": "",
         "tools/mb4sim/t.hpp": "", "drivers/include/mb4/device.hpp": "",
-        "drivers/include/mb4/detail/chip.hpp": "", "drivers/include/mb4/span.hpp": "",
+        "drivers/include/mb4/detail/chip.hpp": "", "drivers/include/mb4/result.hpp": "",
         "drivers/include/enc/span.hpp": "", "regmap/generated/mb4/mb4_regs.hpp": "",
         "rtl/biss/biss_frame.sv": "  enc_ram #(.Width(8)) u_a (\n", "rtl/common/enc_ram.sv": "",
         "rtl/mb4/regs/mb4_bank.sv": "", "regmap/generated/mb4/mb4_regs_pkg.sv": "",
@@ -331,13 +331,13 @@ def self_test():
         ("tools/mb4sim/a.cpp", '#include "mb4/detail/chip.hpp"\n', 1),
         ("examples/firmware/a.cpp", '#include "mb4/detail/chip.hpp"\n', 1),
         ("drivers/c/a.cpp", '#include "mb4/detail/chip.hpp"\n#include "mb4/device.hpp"\n', 1),
-        ("drivers/include/enc/a.hpp", '#include "mb4/span.hpp"\n#include "enc/span.hpp"\n', 1),
+        ("drivers/include/enc/a.hpp", '#include "mb4/result.hpp"\n#include "enc/span.hpp"\n', 1),
         ("drivers/include/enc/a.hpp", '#include "mb4_regs.hpp"\n', 1),
         ("drivers/include/mb4/opcodes.hpp", '#include "mb4/device.hpp"\n', 1),
-        ("drivers/include/mb4/opcodes.hpp", '#include "mb4_regs.hpp"\n#include "mb4/span.hpp"\n', 0),
+        ("drivers/include/mb4/opcodes.hpp", '#include "mb4_regs.hpp"\n#include "mb4/result.hpp"\n', 0),
         ("drivers/include/mb4/ports/a.hpp", '#include "mb4/detail/chip.hpp"\n', 1),
         ("drivers/include/mb4/device.hpp", '#include "mb4/detail/chip.hpp"\n', 0),
-        ("drivers/include/mb4/new.hpp", '#include "mb4/span.hpp"\n', 1),
+        ("drivers/include/mb4/new.hpp", '#include "mb4/result.hpp"\n', 1),
         ("tests/unit/a.cpp", '#include "t.hpp"\n', 0),
         ("rtl/common/mb4_a.sv", "  mb4_bank u_bank (\n", 1),
         ("rtl/biss/mb4_a.sv", "  enc_ram #(\n", 0),

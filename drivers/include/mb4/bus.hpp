@@ -22,7 +22,7 @@
 #include <cstdint>
 
 #include "enc/bus.hpp"
-#include "mb4/span.hpp"
+#include "mb4/result.hpp"
 #include "mb4_regs.hpp"
 
 namespace mb4 {

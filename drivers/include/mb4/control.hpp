@@ -16,7 +16,6 @@
 #include "mb4/operation.hpp"
 #include "mb4/result.hpp"
 #include "mb4/slave_address.hpp"
-#include "mb4/span.hpp"
 
 namespace mb4 {
 

@@ -16,7 +16,6 @@
 #include "mb4/frame.hpp"
 #include "mb4/reading.hpp"
 #include "mb4/result.hpp"
-#include "mb4/span.hpp"
 #include "mb4/status.hpp"
 #include "mb4/steps.hpp"
 #include "mb4_cyclic.h"

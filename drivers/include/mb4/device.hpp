@@ -26,7 +26,6 @@
 #include "mb4/reading.hpp"
 #include "mb4/register_image.hpp"
 #include "mb4/result.hpp"
-#include "mb4/span.hpp"
 #include "mb4/status.hpp"
 #include "mb4_regs.hpp"
 

@@ -11,7 +11,6 @@
 
 #include "mb4/opcodes.hpp"
 #include "mb4/result.hpp"
-#include "mb4/span.hpp"
 #include "mb4_regs.hpp"
 
 namespace mb4 {

@@ -30,7 +30,6 @@
 #include "mb4/result.hpp"
 #include "mb4/scan.hpp"
 #include "mb4/slave_address.hpp"
-#include "mb4/span.hpp"
 #include "mb4/status.hpp"
 #include "mb4/version.hpp"
 

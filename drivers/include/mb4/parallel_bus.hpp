@@ -10,7 +10,7 @@
 #include <cstdint>
 
 #include "mb4/detail/spi_frame.hpp"
-#include "mb4/span.hpp"
+#include "mb4/result.hpp"
 
 namespace mb4 {
 

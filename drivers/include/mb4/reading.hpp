@@ -11,7 +11,6 @@
 
 #include "mb4/config.hpp"
 #include "mb4/result.hpp"
-#include "mb4/span.hpp"
 #include "mb4_cyclic.h"
 
 namespace mb4 {

@@ -13,7 +13,6 @@
 #include "mb4/config.hpp"
 #include "mb4/result.hpp"
 #include "mb4/slave_address.hpp"
-#include "mb4/span.hpp"
 
 namespace mb4 {
 

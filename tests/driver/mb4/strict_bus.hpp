@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "mb4/bus.hpp"
-#include "mb4/span.hpp"
+#include "mb4/result.hpp"
 
 namespace mb4test {
 

@@ -19,7 +19,7 @@
 #include <vector>
 
 #include "masters/mb4/sim_bus.hpp"
-#include "mb4/span.hpp"
+#include "mb4/result.hpp"
 #include "mb4sim/simulator.hpp"
 
 namespace mb4test {

@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "mb4/span.hpp"
+#include "mb4/result.hpp"
 #include "mb4_regs.hpp"
 
 namespace mb4::detail {

@@ -17,7 +17,7 @@
 #include <cstdint>
 
 #include "mb4/bus.hpp"
-#include "mb4/span.hpp"
+#include "mb4/result.hpp"
 
 namespace mb4::ports {
 

@@ -21,7 +21,7 @@
 
 #include "mb4/bus.hpp"
 #include "mb4/ports/counter_us.hpp"
-#include "mb4/span.hpp"
+#include "mb4/result.hpp"
 
 namespace mb4::ports {
 

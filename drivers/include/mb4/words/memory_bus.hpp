@@ -14,7 +14,7 @@
 #include <cstdint>
 
 #include "mb4/detail/spi_frame.hpp"
-#include "mb4/span.hpp"
+#include "mb4/result.hpp"
 #include "mb4/words/port.hpp"
 #include "mb4_page_regs.hpp"
 #include "mb4_regs.hpp"

@@ -11,7 +11,7 @@
 #include <string>
 
 #include "mb4/parallel_bus.hpp"
-#include "mb4/span.hpp"
+#include "mb4/result.hpp"
 #include "mb4/words/memory_bus.hpp"
 #include "mb4_regs.hpp"
 #include "mb4sim/simulator.hpp"
