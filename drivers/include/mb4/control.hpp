@@ -101,8 +101,8 @@ class Control {
   }
 
   // Writes data.size() (1..128) registers from `address`, in parts of 64; address + size <= 128.
-  // Errors of read_registers(). On error the first
-  // ErrorInfo::bytes registers are written, and the next one may be.
+  // Errors of read_registers(). On error the first ErrorInfo::bytes registers are written, and the
+  // next one may be.
   Result<void> write_registers(SlaveAddress slave, std::uint8_t address,
                                Span<const std::uint8_t> data) {
     return detail::Blocking::in_parts(chip_, slave, address, data.data(), nullptr, data.size());
