@@ -71,8 +71,9 @@ class DslPositionBlock : public testing::Test {
     v.answer_i = m.answer_i = 0;
     m.told_i = 0;
     m.time_i = 0;
+    m.safe2_bits_i = m.tolerance_i = 0;
     v.quirks_i = m.quirks_i = quirks_of({});
-    status.write(m.status_i);
+    m.status_i = status.bits();
     vertical_block.reset();
     position_block.reset();
     until_told(1500);
@@ -154,7 +155,7 @@ class DslPositionBlock : public testing::Test {
     status.width = bits;
     status.identity =
         (is_signed ? 1U << 10U : 0U) | (bits - acceleration_bits) << 4U | (acceleration_bits - 8);
-    status.write(m.status_i);
+    m.status_i = status.bits();
     end_link();
     port.linked = port.begins = true;
     clock();
@@ -212,7 +213,7 @@ class DslPositionBlock : public testing::Test {
     status.delay = random.below(16);
     status.state = random.below(16);
     status.reason = random.below(8);
-    status.write(m.status_i);
+    m.status_i = status.bits();
     sampled = time;
     ASSERT_FALSE(pending);
     ended = clocks_ever;
