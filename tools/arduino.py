@@ -21,8 +21,8 @@ def files(version):
         for path in folder.rglob("*"):
             if path.is_file() and path.suffix != ".license":
                 found[place + str(path.relative_to(folder))] = path
-    for name in ("mb4_regs.h", "mb4_regs.hpp"):
-        found[f"src/{name}"] = ROOT / "regmap/generated/mb4" / name
+    for name in ("mb4/mb4_regs.h", "mb4/mb4_regs.hpp", "axi/axi_regs.h"):
+        found[f"src/{Path(name).name}"] = ROOT / "regmap/generated" / name
     return {name.removesuffix(".in"): path.read_bytes().replace(b"@VERSION@", version.encode())
             for name, path in sorted(found.items())}
 

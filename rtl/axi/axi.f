@@ -16,8 +16,9 @@ axi_page.sv
 axi_counters.sv
 axi_delays.sv
 axi_access.sv
+axi_last.sv
 axi_extras.sv
-axi_host.sv
+axi_no_axil.sv
 axi_core.sv
 axi_widths.sv
 biss_axi.sv

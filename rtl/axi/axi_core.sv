@@ -3,9 +3,9 @@
 //
 // BiSS C master with N channels behind AXI4-Lite, or with Spi = 1 behind SPI (instances, the common
 // time base, the pins of error and warning). biss_axi and biss_spi are the tops; switches_i is what
-// their parameters tie off. The pins of the other host do not count (axi_host). Extras says what
-// there is beyond the document (axi_pkg::EXTRA_*); any of them but EXTRA_ALIGN needs EXTRA_PAGE
-// too.
+// their parameters tie off. The pins of the other host do not count; outputs to it are 0. Extras
+// says what there is beyond the document (axi_pkg::EXTRA_*); any of them but EXTRA_ALIGN needs
+// EXTRA_PAGE too.
 //
 // Clock domain: clk_i. slo_i, ext_sample_clk_i, sample_en_i and the pins of SPI are asynchronous.
 // Reset: rst_ni and por_ni may fall and rise at any time; both are released here with clk_i. por_ni
@@ -127,22 +127,40 @@ module axi_core #(
   logic tick, half_next;
   logic sending, measuring, overrun;
   biss_pkg::sample_t unused_sample;
-  logic unused_half;
+  logic unused_half, unused_host;
   logic [3*Channels-1:0] unused_samples;
   logic [Channels-1:0]   unused_halves;
   logic error_q, warn_q, unused;
 
-  enc_reset_sync u_reset (
-    .clk_i,
-    .rst_ni,
-    .rst_sync_no (rst_n)
-  );
+  enc_reset_sync u_reset (.clk_i, .rst_ni, .rst_sync_no (rst_n));
+  enc_reset_sync u_power_on (.clk_i, .rst_ni (por_ni), .rst_sync_no (por_n));
 
-  enc_reset_sync u_power_on (
-    .clk_i,
-    .rst_ni      (por_ni),
-    .rst_sync_no (por_n)
-  );
+  if (Spi) begin : gen_spi
+    enc_spi #(.AddrW(8)) u_spi (
+      .clk_i, .rst_ni (rst_n), .sclk_i, .cs_ni, .mosi_i, .miso_o, .miso_oe_o,
+      .word_req_o (req), .word_write_o (write), .word_addr_o (addr), .word_data_o (wdata),
+      .word_be_o (be), .word_ready_i (1'b1), .word_data_i (rdata), .word_error_i (1'b0)
+    );
+    axi_no_axil u_no_axil (
+      .s_axi_awvalid, .s_axi_awready, .s_axi_awaddr, .s_axi_wvalid, .s_axi_wready, .s_axi_wdata,
+      .s_axi_wstrb, .s_axi_bvalid, .s_axi_bready, .s_axi_bresp, .s_axi_arvalid, .s_axi_arready,
+      .s_axi_araddr, .s_axi_rvalid, .s_axi_rready, .s_axi_rdata, .s_axi_rresp
+    );
+    assign unused_host = 1'b0;
+  end else begin : gen_axil
+    enc_axil #(.AddrW(8)) u_axil (
+      .clk_i, .rst_ni (rst_n),
+      .s_axi_awvalid, .s_axi_awready, .s_axi_awaddr (s_axi_awaddr[7:2]),
+      .s_axi_wvalid, .s_axi_wready, .s_axi_wdata, .s_axi_wstrb,
+      .s_axi_bvalid, .s_axi_bready, .s_axi_bresp,
+      .s_axi_arvalid, .s_axi_arready, .s_axi_araddr (s_axi_araddr[7:2]),
+      .s_axi_rvalid, .s_axi_rready, .s_axi_rdata, .s_axi_rresp,
+      .word_req_o (req), .word_write_o (write), .word_addr_o (addr), .word_data_o (wdata),
+      .word_be_o (be), .word_ready_i (1'b1), .word_data_i (rdata), .word_error_i (1'b0)
+    );
+    assign {miso_o, miso_oe_o} = 2'b00;
+    assign unused_host = sclk_i ^ cs_ni ^ mosi_i ^ (^{s_axi_awaddr[1:0], s_axi_araddr[1:0]});
+  end
 
   axi_regs #(.Channels(Channels)) u_regs (
     .clk_i,
@@ -279,10 +297,13 @@ module axi_core #(
     .done_i      (done),
     .sense_i     (sense),
     .overrun_i   (overrun),
+    .check_i     (frame.check),
     .enabled_i   (enabled),
     .good_i      (good),
     .events_i    (events),
     .results_i   (results),
+    .words_i     (words),
+    .mores_i     (mores),
     .ma_shift_i  (ma_shift),
     .start_o     (channel_start),
     .pending_o   (pending),
@@ -313,23 +334,6 @@ module axi_core #(
     .s_axis_tlast
   );
 
-  axi_host #(.Spi(Spi)) u_host (
-    .clk_i,
-    .rst_ni       (rst_n),
-    .s_axi_awvalid, .s_axi_awready, .s_axi_awaddr,
-    .s_axi_wvalid, .s_axi_wready, .s_axi_wdata, .s_axi_wstrb,
-    .s_axi_bvalid, .s_axi_bready, .s_axi_bresp,
-    .s_axi_arvalid, .s_axi_arready, .s_axi_araddr,
-    .s_axi_rvalid, .s_axi_rready, .s_axi_rdata, .s_axi_rresp,
-    .sclk_i, .cs_ni, .mosi_i, .miso_o, .miso_oe_o,
-    .word_req_o   (req),
-    .word_write_o (write),
-    .word_addr_o  (addr),
-    .word_data_o  (wdata),
-    .word_be_o    (be),
-    .word_data_i  (rdata)
-  );
-
   always_ff @(posedge clk_i or negedge rst_n) begin
     if (!rst_n) begin
       error_q <= 1'b1;
@@ -342,6 +346,6 @@ module axi_core #(
 
   assign error_no = error_q;
   assign warn_no  = warn_q;
-  assign unused   = (^{unused_sample, unused_half, unused_samples, unused_halves});
+  assign unused   = (^{unused_host, unused_sample, unused_half, unused_samples, unused_halves});
 
 endmodule

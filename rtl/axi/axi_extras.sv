@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What the BiSS C master has beyond its document, as far as it is no part of a channel: the page,
-// counters, line delays, register access. Extras says which of them there are; without any nothing
-// is built, and start_o is start_i. EXTRA_ALIGN acts without EXTRA_PAGE, the others do not.
+// counters, line delays, register access, last words. Extras says which of them there are; without
+// any nothing is built, and start_o is start_i. EXTRA_ALIGN acts without EXTRA_PAGE, the others do
+// not.
 //
 // Clock domain: core. Latency and misuse: see the modules.
 // Source: regmap/axi.rdl; docs/axi.md.
@@ -26,10 +27,13 @@ module axi_extras #(
   input  logic        done_i,
   input  logic        sense_i,
   input  logic        overrun_i,
+  input  logic        check_i,         // of the CRC of this frame
   input  logic [Channels-1:0] enabled_i,
   input  logic [Channels-1:0] good_i,
   input  logic [Channels*axi_pkg::EVENT_W-1:0]  events_i,
   input  logic [Channels*axi_pkg::RESULT_W-1:0] results_i,
+  input  logic [Channels*axi_pkg::WORD_W-1:0]   words_i,
+  input  logic [Channels*axi_pkg::MORE_W-1:0]   mores_i,
   input  logic [Channels-1:0] ma_shift_i,
   output logic [Channels-1:0] start_o,
   output logic [Channels-1:0] pending_o,   // a shifted start is to come
@@ -45,7 +49,7 @@ module axi_extras #(
   // A single channel has nothing to be aligned to.
   localparam bit ALIGN = Extras[axi_pkg::EXTRA_ALIGN] && Channels > 1;
 
-  logic [31:0] page_data, counter_data, delay_data, access_data;
+  logic [31:0] page_data, counter_data, delay_data, access_data, last_data;
   logic        alarm, access_end;
   logic        unused;
 
@@ -133,8 +137,28 @@ module axi_extras #(
     assign access_end  = 1'b0;
   end
 
-  assign data_o = page_data | counter_data | delay_data | access_data;
+  if (Extras[axi_pkg::EXTRA_LAST]) begin : gen_last
+    axi_last #(.Channels(Channels), .Wide(Extras[axi_pkg::EXTRA_WIDE])) u_last (
+      .clk_i,
+      .rst_ni,
+      .clear_i,
+      .bus_i,
+      .index_i,
+      .data_o    (last_data),
+      .start_i,
+      .check_i,
+      .enabled_i,
+      .events_i,
+      .words_i,
+      .mores_i
+    );
+  end else begin : gen_no_last
+    assign last_data = '0;
+  end
+
+  assign data_o = page_data | counter_data | delay_data | access_data | last_data;
   assign unused = (^switches_i) ^ (^bus_i) ^ (^index_i) ^ (^events_i) ^ (^results_i) ^
+                  (^words_i) ^ (^mores_i) ^ check_i ^
                   (^ma_shift_i) ^ (^enabled_i) ^ (^good_i) ^ skip_i ^ done_i ^ sense_i ^ overrun_i ^
                   clear_i ^ clk_i ^ rst_ni ^ tick_i ^ half_next_i ^ alarm ^ access_end;
 

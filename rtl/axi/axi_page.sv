@@ -48,7 +48,8 @@ module axi_page #(
   logic [31:0] features;
   logic        unused;
 
-  assign features = {11'd0, 5'(Channels), 3'd0, switches_i, Extras};
+  assign features = {11'd0, 5'(Channels), 2'd0, Extras[axi_pkg::EXTRA_LAST], switches_i,
+                     Extras[axi_pkg::EXTRA_ALIGN:0]};
 
   enc_time u_time (
     .clk_i,

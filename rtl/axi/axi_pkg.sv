@@ -5,7 +5,8 @@
 
 package axi_pkg;
 
-  // Extras beyond the document: places in parameter EXTRAS of biss_axi and in register FEATURES.
+  // Extras beyond the document: places in parameter EXTRAS of biss_axi. Register FEATURES
+  // has them at the same places, but EXTRA_LAST at 13.
   localparam int unsigned EXTRA_PAGE      = 0;  // identity, time, interrupt, skipped starts
   localparam int unsigned EXTRA_WIDE      = 1;  // positions of up to 64 bits
   localparam int unsigned EXTRA_CRC       = 2;  // any CRC polynomial up to 16 bits
@@ -15,7 +16,8 @@ package axi_pkg;
   localparam int unsigned EXTRA_ALARM     = 6;  // line delays that move
   localparam int unsigned EXTRA_ACCESS    = 7;  // registers of encoders
   localparam int unsigned EXTRA_ALIGN     = 8;  // ALIGN_LATCH
-  localparam int unsigned EXTRAS_W        = 9;
+  localparam int unsigned EXTRA_LAST      = 9;  // the last word of each channel
+  localparam int unsigned EXTRAS_W        = 10;
 
   // What a frame is, the same for all channels. Registers, taken when the frame starts.
   typedef struct packed {

@@ -6,10 +6,12 @@
 // Clock domain: core. done_i says that all enabled channels have ended their frames.
 //
 // Mode 0: one beat for each read, in the next clock, Lane bits for each channel (channel 0 lowest).
-//   s_axis_tready does not count. TLAST is 1. TUSER has a bit for each channel: 1 = its word is of
-//   this frame and good. Bits of a disabled channel are 0.
-// Mode 1: one beat for each channel that is enabled at done_i, in ascending order, the first 2
-//   clocks after done_i, one channel a clock; busy_o is high meanwhile, and the words must stay. A
+//   s_axis_tready does not count: this is a strobe and no handshake. TLAST is 1.
+//   TUSER has a bit for each channel: 1 = its word is of this frame and good. Bits of a disabled
+//   channel are 0.
+// Mode 1: one beat for each channel that is enabled at done_i, in ascending order, one channel a
+//   clock into the FIFO; the first is at the output 3 clocks after done_i if none waits there.
+//   busy_o is high while they go in, and the words must stay. A
 //   channel that is disabled meanwhile sends position 0, not good.
 //   TLAST comes with the last one. TUSER: 0 good, 1 nE, 2 nW, 3 CRC wrong, 15..8 channel.
 //   Beats that the sink does not take wait in a FIFO. If the FIFO has no room at done_i for all
@@ -82,6 +84,7 @@ module axi_stream #(
     localparam int unsigned INDEX_W = Channels > 1 ? $clog2(Channels) : 1;
 
     localparam int unsigned ROOM_W  = $clog2(Depth) + 1;
+    localparam int unsigned USER_W  = Channels > 1 ? 4 + INDEX_W : 4;   // without bits that are 0
 
     logic                run_q;
     logic                overrun_q;
@@ -95,7 +98,16 @@ module axi_stream #(
     logic                later;     // one of the channels behind it is
     logic [axi_pkg::WORD_W-1:0] word;
     logic [31:0]         high;
+    logic [USER_W-1:0]   user, user_out;
     logic                unused;
+
+    if (Channels > 1) begin : gen_numbers
+      assign user         = {index_q, word[axi_pkg::WORD_POSITION-1:0]};
+      assign s_axis_tuser = UserW'({8'(user_out[USER_W-1:4]), 4'd0, user_out[3:0]});
+    end else begin : gen_number_0
+      assign user         = word[axi_pkg::WORD_POSITION-1:0];
+      assign s_axis_tuser = UserW'(user_out);
+    end
 
     assign busy_o     = run_q;
     assign overrun_o  = overrun_q;
@@ -134,18 +146,18 @@ module axi_stream #(
       end
     end
 
-    enc_axis_fifo #(.DataW(DataW), .UserW(UserW), .Depth(Depth)) u_fifo (
+    enc_axis_fifo #(.DataW(DataW), .UserW(USER_W), .Depth(Depth)) u_fifo (
       .clk_i,
       .rst_ni,
       .push_i    (run_q && now),
       .data_i    (DataW'({high, word[axi_pkg::WORD_POSITION +: 32]})),
-      .user_i    ({8'(index_q), 4'd0, word[axi_pkg::WORD_POSITION-1:0]}),
+      .user_i    (user),
       .last_i    (!later),
       .room_o    (room),
       .m_axis_tvalid (s_axis_tvalid),
       .m_axis_tready (s_axis_tready),
       .m_axis_tdata  (s_axis_tdata),
-      .m_axis_tuser  (s_axis_tuser),
+      .m_axis_tuser  (user_out),
       .m_axis_tlast  (s_axis_tlast)
     );
   end

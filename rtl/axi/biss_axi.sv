@@ -14,8 +14,9 @@
 //   POR_PIN = 1: por_n resets everything. axi_aresetn alone leaves MA and its time base: MA returns
 //     to 1 at the end of its half period, so no pulse of MA is cut.
 //
-// The stream is a source although its names begin with s_axis. s_axis_tready does not count in
-// stream mode 0 (tie it to 1).
+// The stream is a source although its names begin with s_axis. In stream mode 0 it is a strobe:
+// s_axis_tvalid is 1 for one clock, and s_axis_tready does not count (tie it to 1). Mode 1 is an
+// AXI4-Stream.
 //
 // Misuse: an address without a register reads 0 and ignores writes. Others: axi_core, axi_channel,
 // axi_start.
@@ -58,10 +59,10 @@ module biss_axi #(
   output logic [1:0]  S_AXI_RRESP,
   output logic        S_AXI_RVALID,
   input  logic        S_AXI_RREADY,
-  // AXI4-Stream
+  // AXI4-Stream; in mode 0 a strobe without a handshake
   output logic [S_AXIS_TDATA_WIDTH-1:0] s_axis_tdata,
   output logic        s_axis_tvalid,
-  input  logic        s_axis_tready,
+  input  logic        s_axis_tready,  // mode 1 only
   output logic        s_axis_tlast,
   output logic [S_AXIS_TUSER_WIDTH-1:0] s_axis_tuser,
   // BiSS C
@@ -94,7 +95,7 @@ module biss_axi #(
     $error("STREAM_DEPTH must be at least BISS_CHANNEL_WIDTH: a frame goes into the FIFO whole");
   end
   if (EXTRAS >= 1 << axi_pkg::EXTRAS_W) begin : gen_extras
-    $error("EXTRAS has 9 bits");
+    $error("EXTRAS has 10 bits");
   end
 `endif
 

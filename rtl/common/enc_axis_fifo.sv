@@ -4,8 +4,9 @@
 // AXI4-Stream source with a FIFO.
 //
 // Clock domain: clk_i. push_i puts one beat into the FIFO: data, user and last. Every output of the
-// stream is a flop (IHI0022 and IHI0051: TVALID does not wait for TREADY, and the beat stays until
-// TREADY). Latency: 1 clock from push_i to TVALID if the FIFO is empty. One beat a clock can leave.
+// stream is a flop, the beat that of the memory's read port, so the memory can be block RAM
+// (IHI0022 and IHI0051: TVALID does not wait for TREADY, and the beat stays until TREADY).
+// Latency: 2 clocks from push_i to TVALID if the FIFO is empty. One beat a clock can leave.
 // room_o says how many beats surely fit; without push_i it never gets less.
 //
 // Misuse: a beat that is pushed while Depth beats wait is lost; the others keep their order.
@@ -42,46 +43,46 @@ module enc_axis_fifo #(
   end
 `endif
 
-  logic [BEAT_W-1:0] beats_q [Depth];
   logic [ADDR_W:0]   wr_q;
   logic [ADDR_W:0]   rd_q;
   logic              waits;      // a beat is in the memory
   logic              full;
-  logic              take;       // the output takes the next beat
+  logic              take;       // the output is free for the next beat
   logic              valid_q;
-  logic [BEAT_W-1:0] beat_q;
+  logic [BEAT_W-1:0] beat;
   logic              store;
-  logic              through;    // the beat goes past the memory
 
-  assign waits   = wr_q != rd_q;
-  assign full    = wr_q == {!rd_q[ADDR_W], rd_q[ADDR_W-1:0]};
-  assign take    = !valid_q || m_axis_tready;
-  assign through = push_i && !waits && take;
-  assign store   = push_i && !full && !through;
+  assign waits = wr_q != rd_q;
+  assign full  = wr_q == {!rd_q[ADDR_W], rd_q[ADDR_W-1:0]};
+  assign take  = !valid_q || m_axis_tready;
+  assign store = push_i && !full;
 
-  always_ff @(posedge clk_i) begin
-    if (store) beats_q[wr_q[ADDR_W-1:0]] <= {data_i, user_i, last_i};
-  end
+  enc_ram #(.Width(BEAT_W), .AddrW(ADDR_W)) u_beats (
+    .wr_clk_i  (clk_i),
+    .wr_en_i   (store),
+    .wr_addr_i (wr_q[ADDR_W-1:0]),
+    .wr_data_i ({data_i, user_i, last_i}),
+    .rd_clk_i  (clk_i),
+    .rd_en_i   (take && waits),
+    .rd_addr_i (rd_q[ADDR_W-1:0]),
+    .rd_data_o (beat)
+  );
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       wr_q    <= '0;
       rd_q    <= '0;
       valid_q <= 1'b0;
-      beat_q  <= '0;
     end else begin
       if (store)         wr_q <= wr_q + (ADDR_W+1)'(1);
       if (take && waits) rd_q <= rd_q + (ADDR_W+1)'(1);
-      if (take) begin
-        valid_q <= waits || push_i;
-        beat_q  <= waits ? beats_q[rd_q[ADDR_W-1:0]] : {data_i, user_i, last_i};
-      end
+      if (take)          valid_q <= waits;
     end
   end
 
   assign room_o        = (ADDR_W+1)'(Depth) - (wr_q - rd_q);
   assign m_axis_tvalid = valid_q;
-  assign {m_axis_tdata, m_axis_tuser, m_axis_tlast} = beat_q;
+  assign {m_axis_tdata, m_axis_tuser, m_axis_tlast} = beat;
 
   `ENC_ASSERT_NEXT(BeatStays_A, clk_i, rst_ni, m_axis_tvalid && !m_axis_tready, m_axis_tvalid)
 

@@ -10,15 +10,11 @@
 // depth: 9
 // cover: 9
 // unbounded: reachability
-// mutation: common/enc_axis_fifo.sv | take    = !valid_q || m_axis_tready; | take    = m_axis_tready;
-// mutation: common/enc_axis_fifo.sv | store   = push_i && !full && !through;
-//   | store   = push_i && !through;
-// mutation: common/enc_axis_fifo.sv | store   = push_i && !full && !through;
-//   | store   = push_i && !full;
-// mutation: common/enc_axis_fifo.sv | through = push_i && !waits && take;
-//   | through = push_i && take;
+// mutation: common/enc_axis_fifo.sv | take  = !valid_q || m_axis_tready; | take  = m_axis_tready;
+// mutation: common/enc_axis_fifo.sv | store = push_i && !full; | store = push_i;
+// mutation: common/enc_axis_fifo.sv | .rd_en_i   (take && waits), | .rd_en_i   (waits),
 // mutation: common/enc_axis_fifo.sv | if (take && waits) rd_q | if (take) rd_q
-// mutation: common/enc_axis_fifo.sv | valid_q <= waits || push_i; | valid_q <= waits;
+// mutation: common/enc_axis_fifo.sv | valid_q <= waits; | valid_q <= waits || push_i;
 // mutation: common/enc_axis_fifo.sv | - (wr_q - rd_q); | - (rd_q - wr_q);
 
 module proof (
@@ -48,6 +44,7 @@ module proof (
   // The queue: the oldest beat lowest. It has room for the output and 4 more.
   logic [14:0] queue_q;
   logic [2:0]  count_q;
+  logic        fresh_q;   // one of them has come in the clock before: the output cannot have it
   wire         pop    = count_q != 3'd0 && ready_i;
   wire         accept = push_i && count_q != 3'd5;
   wire [14:0]  rest   = pop ? {3'd0, queue_q[14:3]} : queue_q;
@@ -55,6 +52,7 @@ module proof (
   always @(posedge clk_i) begin
     queue_q <= rest;
     count_q <= left;
+    fresh_q <= accept && rst_ni;
     if (accept) begin
       queue_q <= (rest & ~(15'd7 << 3 * left)) | ({12'd0, beat_i} << 3 * left);
       count_q <= left + 3'd1;
@@ -71,10 +69,10 @@ module proof (
   end
 
   always @* if (rst_ni && started) begin
-    Valid_A:   assert (valid == (count_q != 3'd0));
+    Valid_A:   assert (valid == (count_q > {2'd0, fresh_q}));
     if (valid) Beat_A: assert ({data[0], user, last} == queue_q[2:0]);
     if (held_q) Stays_A: assert (valid && {data[0], user, last} == was_q);
-    Room_A: assert (room == (count_q == 3'd0 ? 3'd4 : 3'd5 - count_q));
+    Room_A: assert (room == 3'd4 + {2'd0, valid} - count_q);
   end
 
   always @(posedge clk_i) if (rst_ni) begin

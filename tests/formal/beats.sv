@@ -26,7 +26,8 @@
 // mutation: axi/axi_stream.sv | needed = needed + 5'(enabled_i[i]); | needed = 5'(enabled_i[i]);
 // mutation: axi/axi_stream.sv | overrun_q <= done_i && !clear_i && !fits; | overrun_q <= done_i && !fits;
 // mutation: axi/axi_stream.sv | index_q + INDEX_W'(1) : '0; | index_q + INDEX_W'(1) : index_q;
-// mutation: axi/axi_stream.sv | .user_i    ({8'(index_q), 4'd0, | .user_i    ({8'(last_index), 4'd0,
+// mutation: axi/axi_stream.sv | user         = {index_q, word | user         = {INDEX_W'(last_index), word
+// mutation: axi/axi_stream.sv | user_out[USER_W-1:4]), 4'd0, | user_out[USER_W-1:4]), 4'd1,
 // mutation: axi/axi_stream.sv | fits) || (run_q && !last_index); | fits) || (run_q && !clear_i && !last_index);
 // mutation: axi/axi_stream.sv | word = words_i[i*axi_pkg::WORD_W +: axi_pkg::WORD_W];
 //   | word = words_i[axi_pkg::WORD_W +: axi_pkg::WORD_W];
@@ -46,7 +47,7 @@ module proof (
   logic [15:0] user;
   wire         dut_push, dut_last;
   wire  [31:0] dut_data;
-  wire  [15:0] dut_user;
+  wire  [5:0]  dut_user;   // without bits that are 0
   wire  [1:0]  dut_index;
   wire  [2:0]  dut_room;
 
@@ -111,8 +112,9 @@ module proof (
     if (reads) Room_A: assert (left <= dut_room);
     if (reads) Index_A: assert (dut_index == channel);
     Push_A: assert (dut_push == sends);
+    Zeros_A: assert (user[15:10] == 6'd0 && user[7:4] == 4'd0);
     if (dut_push) begin
-      Word_A: assert (dut_data == word[35:4] && dut_user == {6'd0, channel, 4'd0, word[3:0]});
+      Word_A: assert (dut_data == word[35:4] && dut_user == {channel, word[3:0]});
       Last_A: assert (dut_last == !more);
     end
   end

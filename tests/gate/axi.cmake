@@ -8,7 +8,7 @@ add_dependencies(gate_axi_test mb4_gate_models_axi)
 
 # Left out: what needs 1 or 16 channels, and what compares two ways to run the RTL.
 string(JOIN ":" not_with_four_channels *Sixteen* *AlignLatchOf* *AxiAlign*document AxiSteps.*
-  AxiExtras.Identity_* Axi.F1EveryRegister_* Axi.ChannelsThatDoNotAnswer_*)
+  AxiExtras.Identity_* Axi.F1EveryRegister_* Axi.ChannelsThatDoNotAnswer_* AxiSpi.*)
 # The share: what takes below some seconds.
 string(JOIN ":" axi_share Axi.F* Axi.CrcRegisters_* Axi.NoStartBit* Axi.LineStuckLow* Axi.Debug*
   Axi.Zero* AxiDriver.ReadSingle_* AxiDriver.Switches* AxiDriver.CallsOfTheManual_* AxiDriver.Page_*

@@ -69,6 +69,7 @@ MAY_USE = {
     "drivers/include/biss_c.h": (),
     "drivers/include/pm_bissc_include.h": (),
     "drivers/include/biss_pru.h": ("regmap/",),
+    "drivers/include/biss_spi.h": ("regmap/",),
     "drivers/c/pm_bissc": ("drivers/include/pm_bissc_include.h", "regmap/"),
     "drivers/c/biss_c": ("drivers/include/biss_axi/", "drivers/include/biss_c.h", "regmap/"),
     "sim/core/": (),

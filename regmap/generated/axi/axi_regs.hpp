@@ -55,6 +55,9 @@ inline constexpr std::uint8_t kAddrAccess = 0x94;  // Register access
 inline constexpr std::uint8_t kAddrAccessData = 0x98;  // Register data
 inline constexpr std::uint8_t kAddrAccessStatus = 0x9C;  // Register access status
 inline constexpr std::uint8_t kAddrStreamStatus = 0xA0;  // Stream status
+inline constexpr std::uint8_t kAddrLastStatus = 0xA4;  // Last word, status
+inline constexpr std::uint8_t kAddrLastPosition = 0xA8;  // Last word, position
+inline constexpr std::uint8_t kAddrLastPositionHigh = 0xAC;  // Last word, high word of the position
 
 inline constexpr unsigned kChannels = 16;  // Most channels
 
@@ -180,6 +183,15 @@ inline constexpr std::uint32_t kConstAccessStatus = 0x00000000;
 inline constexpr std::uint32_t kResetStreamStatus = 0x00000000;
 inline constexpr std::uint32_t kWmaskStreamStatus = 0x00000001;
 inline constexpr std::uint32_t kConstStreamStatus = 0x00000000;
+inline constexpr std::uint32_t kResetLastStatus = 0x00000000;
+inline constexpr std::uint32_t kWmaskLastStatus = 0x00000000;
+inline constexpr std::uint32_t kConstLastStatus = 0x00000000;
+inline constexpr std::uint32_t kResetLastPosition = 0x00000000;
+inline constexpr std::uint32_t kWmaskLastPosition = 0x00000000;
+inline constexpr std::uint32_t kConstLastPosition = 0x00000000;
+inline constexpr std::uint32_t kResetLastPositionHigh = 0x00000000;
+inline constexpr std::uint32_t kWmaskLastPositionHigh = 0x00000000;
+inline constexpr std::uint32_t kConstLastPositionHigh = 0x00000000;
 
 // ---- Field types --------------------------------------------------------------------------------
 
@@ -279,6 +291,8 @@ using SINGLE_POINT_DATA = Field<0x38, 0, 32, Access::kReadOnly, 0>;
 using LINE_DELAY = Field<0x3C, 0, 10, Access::kReadOnly, 0>;
 // Number of channels.
 using CHANNEL_COUNT = Field<0x48, 16, 5, Access::kReadOnly, 0>;
+// The last word of each channel.
+using HAS_LAST = Field<0x48, 13, 1, Access::kReadOnly, 0>;
 // ENABLE_ACTIVE_LOW: a 0 in CHANNEL_ENABLE enables a channel.
 using ACTIVE_LOW = Field<0x48, 12, 1, Access::kReadOnly, 0>;
 // CRC_BIT_IGNORES: a 1 in CRC_CHECK switches the check off.
@@ -386,6 +400,23 @@ using ACCESS_ACTIVE = Field<0x9C, 0, 1, Access::kReadOnly, 0>;
 using STREAM_LOST_FRAMES = Field<0xA0, 16, 16, Access::kReadOnly, 0>;
 // A frame was lost. Writing 1 and a soft reset clear it.
 using STREAM_LOST = Field<0xA0, 0, 1, Access::kWriteOneClears, 0>;
+// Number of the last read that the channel has ended, from 1 on, modulo 2^16; 0 before the first
+// one. A soft reset begins anew.
+using LAST_NUMBER = Field<0xA4, 16, 16, Access::kReadOnly, 0>;
+// SLO was 0 at the start: no frame began.
+using LAST_LATE = Field<0xA4, 4, 1, Access::kReadOnly, 0>;
+// The CRC was wrong, checked or not.
+using LAST_CRC_ERROR = Field<0xA4, 3, 1, Access::kReadOnly, 0>;
+// nW of a good word; 0 without one.
+using LAST_NWARN = Field<0xA4, 2, 1, Access::kReadOnly, 0>;
+// nE of a good word; 0 without one.
+using LAST_NERR = Field<0xA4, 1, 1, Access::kReadOnly, 0>;
+// The word is good.
+using LAST_GOOD = Field<0xA4, 0, 1, Access::kReadOnly, 0>;
+// Bits 31 to 0 of the position, as copied with LAST_STATUS; 0 without a good word. Extra LAST.
+using LAST_POSITION = Field<0xA8, 0, 32, Access::kReadOnly, 0>;
+// Bits 63 to 32 of the position, as copied with LAST_STATUS. Extras LAST and WIDE.
+using LAST_POSITION_HIGH = Field<0xAC, 0, 32, Access::kReadOnly, 0>;
 
 // ---- Codes --------------------------------------------------------------------------------------
 

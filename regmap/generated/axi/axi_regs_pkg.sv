@@ -59,6 +59,9 @@ package axi_regs_pkg;
   localparam logic [7:0] ADDR_ACCESS_DATA = 8'h98;
   localparam logic [7:0] ADDR_ACCESS_STATUS = 8'h9C;
   localparam logic [7:0] ADDR_STREAM_STATUS = 8'hA0;
+  localparam logic [7:0] ADDR_LAST_STATUS = 8'hA4;
+  localparam logic [7:0] ADDR_LAST_POSITION = 8'hA8;
+  localparam logic [7:0] ADDR_LAST_POSITION_HIGH = 8'hAC;
 
   localparam logic [31:0] CHANNELS = 32'd16;  // Most channels
 
@@ -184,6 +187,15 @@ package axi_regs_pkg;
   localparam logic [31:0] RESET_STREAM_STATUS = 32'h00000000;
   localparam logic [31:0] WMASK_STREAM_STATUS = 32'h00000001;
   localparam logic [31:0] CONST_STREAM_STATUS = 32'h00000000;
+  localparam logic [31:0] RESET_LAST_STATUS = 32'h00000000;
+  localparam logic [31:0] WMASK_LAST_STATUS = 32'h00000000;
+  localparam logic [31:0] CONST_LAST_STATUS = 32'h00000000;
+  localparam logic [31:0] RESET_LAST_POSITION = 32'h00000000;
+  localparam logic [31:0] WMASK_LAST_POSITION = 32'h00000000;
+  localparam logic [31:0] CONST_LAST_POSITION = 32'h00000000;
+  localparam logic [31:0] RESET_LAST_POSITION_HIGH = 32'h00000000;
+  localparam logic [31:0] WMASK_LAST_POSITION_HIGH = 32'h00000000;
+  localparam logic [31:0] CONST_LAST_POSITION_HIGH = 32'h00000000;
 
   // ---- Single fields --------------------------------------------------------------------------
 
@@ -314,6 +326,13 @@ package axi_regs_pkg;
   localparam logic [31:0] CHANNEL_COUNT_W = 32'd5;
   localparam logic [31:0] CHANNEL_COUNT_MASK = 32'h001F0000;
   localparam logic [4:0] CHANNEL_COUNT_RESET = 5'd0;
+
+  // The last word of each channel.
+  localparam logic [7:0] HAS_LAST_ADDR = 8'h48;
+  localparam logic [31:0] HAS_LAST_LSB = 32'd13;
+  localparam logic [31:0] HAS_LAST_W = 32'd1;
+  localparam logic [31:0] HAS_LAST_MASK = 32'h00002000;
+  localparam logic [0:0] HAS_LAST_RESET = 1'd0;
 
   // ENABLE_ACTIVE_LOW: a 0 in CHANNEL_ENABLE enables a channel.
   localparam logic [7:0] ACTIVE_LOW_ADDR = 8'h48;
@@ -678,6 +697,63 @@ package axi_regs_pkg;
   localparam logic [31:0] STREAM_LOST_W = 32'd1;
   localparam logic [31:0] STREAM_LOST_MASK = 32'h00000001;
   localparam logic [0:0] STREAM_LOST_RESET = 1'd0;
+
+  // Number of the last read that the channel has ended, from 1 on, modulo 2^16; 0 before the first
+  // one. A soft reset begins anew.
+  localparam logic [7:0] LAST_NUMBER_ADDR = 8'hA4;
+  localparam logic [31:0] LAST_NUMBER_LSB = 32'd16;
+  localparam logic [31:0] LAST_NUMBER_W = 32'd16;
+  localparam logic [31:0] LAST_NUMBER_MASK = 32'hFFFF0000;
+  localparam logic [15:0] LAST_NUMBER_RESET = 16'd0;
+
+  // SLO was 0 at the start: no frame began.
+  localparam logic [7:0] LAST_LATE_ADDR = 8'hA4;
+  localparam logic [31:0] LAST_LATE_LSB = 32'd4;
+  localparam logic [31:0] LAST_LATE_W = 32'd1;
+  localparam logic [31:0] LAST_LATE_MASK = 32'h00000010;
+  localparam logic [0:0] LAST_LATE_RESET = 1'd0;
+
+  // The CRC was wrong, checked or not.
+  localparam logic [7:0] LAST_CRC_ERROR_ADDR = 8'hA4;
+  localparam logic [31:0] LAST_CRC_ERROR_LSB = 32'd3;
+  localparam logic [31:0] LAST_CRC_ERROR_W = 32'd1;
+  localparam logic [31:0] LAST_CRC_ERROR_MASK = 32'h00000008;
+  localparam logic [0:0] LAST_CRC_ERROR_RESET = 1'd0;
+
+  // nW of a good word; 0 without one.
+  localparam logic [7:0] LAST_NWARN_ADDR = 8'hA4;
+  localparam logic [31:0] LAST_NWARN_LSB = 32'd2;
+  localparam logic [31:0] LAST_NWARN_W = 32'd1;
+  localparam logic [31:0] LAST_NWARN_MASK = 32'h00000004;
+  localparam logic [0:0] LAST_NWARN_RESET = 1'd0;
+
+  // nE of a good word; 0 without one.
+  localparam logic [7:0] LAST_NERR_ADDR = 8'hA4;
+  localparam logic [31:0] LAST_NERR_LSB = 32'd1;
+  localparam logic [31:0] LAST_NERR_W = 32'd1;
+  localparam logic [31:0] LAST_NERR_MASK = 32'h00000002;
+  localparam logic [0:0] LAST_NERR_RESET = 1'd0;
+
+  // The word is good.
+  localparam logic [7:0] LAST_GOOD_ADDR = 8'hA4;
+  localparam logic [31:0] LAST_GOOD_LSB = 32'd0;
+  localparam logic [31:0] LAST_GOOD_W = 32'd1;
+  localparam logic [31:0] LAST_GOOD_MASK = 32'h00000001;
+  localparam logic [0:0] LAST_GOOD_RESET = 1'd0;
+
+  // Bits 31 to 0 of the position, as copied with LAST_STATUS; 0 without a good word. Extra LAST.
+  localparam logic [7:0] LAST_POSITION_ADDR = 8'hA8;
+  localparam logic [31:0] LAST_POSITION_LSB = 32'd0;
+  localparam logic [31:0] LAST_POSITION_W = 32'd32;
+  localparam logic [31:0] LAST_POSITION_MASK = 32'hFFFFFFFF;
+  localparam logic [31:0] LAST_POSITION_RESET = 32'd0;
+
+  // Bits 63 to 32 of the position, as copied with LAST_STATUS. Extras LAST and WIDE.
+  localparam logic [7:0] LAST_POSITION_HIGH_ADDR = 8'hAC;
+  localparam logic [31:0] LAST_POSITION_HIGH_LSB = 32'd0;
+  localparam logic [31:0] LAST_POSITION_HIGH_W = 32'd32;
+  localparam logic [31:0] LAST_POSITION_HIGH_MASK = 32'hFFFFFFFF;
+  localparam logic [31:0] LAST_POSITION_HIGH_RESET = 32'd0;
 
   // ---- Codes ----------------------------------------------------------------------------------
 

@@ -48,7 +48,7 @@ inline constexpr std::array<CodeInfo, 8> kCodes{{
 }};
 
 // By address, most significant bit first; constant bits are left out.
-inline constexpr std::array<FieldInfo, 68> kFields{{
+inline constexpr std::array<FieldInfo, 77> kFields{{
     {"SOFT_RESET", nullptr, 0x00, 0, 1, Access::kReadWrite, 0,
      "1 ends running frames and clears results, valid flags and counters, for as long as it is 1. It changes no configuration.", 0, 0},
     {"EXTERNAL_CLOCK", nullptr, 0x04, 0, 1, Access::kReadWrite, 0,
@@ -83,6 +83,8 @@ inline constexpr std::array<FieldInfo, 68> kFields{{
      "From the second rising MA edge of the channel's last frame to the acknowledge on SLO, in whole bus clocks. 1023: there was no acknowledge, or SLO was 0 at the start.", 0, 0},
     {"CHANNEL_COUNT", nullptr, 0x48, 16, 5, Access::kReadOnly, 0,
      "Number of channels.", 0, 0},
+    {"HAS_LAST", nullptr, 0x48, 13, 1, Access::kReadOnly, 0,
+     "The last word of each channel.", 0, 0},
     {"ACTIVE_LOW", nullptr, 0x48, 12, 1, Access::kReadOnly, 0,
      "ENABLE_ACTIVE_LOW: a 0 in CHANNEL_ENABLE enables a channel.", 0, 0},
     {"CRC_IGNORES", nullptr, 0x48, 11, 1, Access::kReadOnly, 0,
@@ -185,6 +187,22 @@ inline constexpr std::array<FieldInfo, 68> kFields{{
      "Frames that were lost. It wraps; a soft reset clears it.", 0, 0},
     {"STREAM_LOST", nullptr, 0xA0, 0, 1, Access::kWriteOneClears, 0,
      "A frame was lost. Writing 1 and a soft reset clear it.", 0, 0},
+    {"LAST_NUMBER", nullptr, 0xA4, 16, 16, Access::kReadOnly, 0,
+     "Number of the last read that the channel has ended, from 1 on, modulo 2^16; 0 before the first one. A soft reset begins anew.", 0, 0},
+    {"LAST_LATE", nullptr, 0xA4, 4, 1, Access::kReadOnly, 0,
+     "SLO was 0 at the start: no frame began.", 0, 0},
+    {"LAST_CRC_ERROR", nullptr, 0xA4, 3, 1, Access::kReadOnly, 0,
+     "The CRC was wrong, checked or not.", 0, 0},
+    {"LAST_NWARN", nullptr, 0xA4, 2, 1, Access::kReadOnly, 0,
+     "nW of a good word; 0 without one.", 0, 0},
+    {"LAST_NERR", nullptr, 0xA4, 1, 1, Access::kReadOnly, 0,
+     "nE of a good word; 0 without one.", 0, 0},
+    {"LAST_GOOD", nullptr, 0xA4, 0, 1, Access::kReadOnly, 0,
+     "The word is good.", 0, 0},
+    {"LAST_POSITION", nullptr, 0xA8, 0, 32, Access::kReadOnly, 0,
+     "Bits 31 to 0 of the position, as copied with LAST_STATUS; 0 without a good word. Extra LAST.", 0, 0},
+    {"LAST_POSITION_HIGH", nullptr, 0xAC, 0, 32, Access::kReadOnly, 0,
+     "Bits 63 to 32 of the position, as copied with LAST_STATUS. Extras LAST and WIDE.", 0, 0},
 }};
 
 }  // namespace biss_axi::regs

@@ -113,7 +113,11 @@ class Simulator final : public HostPins, private LineMaster {
   SpiHost& spi2() { return host<SpiHost>("spi2"); }
   ParallelHost& bus() { return host<ParallelHost>("bus"); }
   // The host on the bus of 32-bit words that the scenario's interface names. Null if it is none.
-  WordHost* word_bus() { return find_host<WordHost>(scenario_.host.interface.key); }
+  // "words": words that another host carries.
+  WordHost* word_bus() {
+    auto* found = find_host<WordHost>(scenario_.host.interface.key);
+    return found != nullptr ? found : find_host<WordHost>("words");
+  }
   // Violations of the master's limits at the host pins so far.
   HostCheck& host_check() { return master_->host_check(); }
   // What does not fit between the master, as its host has told it, and the lines as they are now.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/masters/axi/axi_master.hpp"
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -16,7 +17,12 @@
 namespace mb4::sim {
 namespace {
 
-constexpr HostInterface kInterfaces[] = {{"axi", false, "an AXI access is never aborted", true}};
+constexpr HostInterface kInterfaces[] = {
+    {"axi", false, "an AXI access is never aborted", true},
+    {"spi", false, "", false, MB4SIM_ONE_MODEL ? "-DMB4_ONE_MODEL=OFF" : ""}};
+constexpr std::int64_t kMinSclkHz = 1'000;
+constexpr std::int64_t kMaxSclkHz = 50'000'000;
+constexpr std::uint64_t kUsualSclkHz = 10'000'000;
 constexpr std::int64_t kMaxClkHz = 500'000'000;
 constexpr std::uint64_t kAxiMaxMaHz = 10'000'000;
 constexpr std::uint64_t kLongestHalf = 255;  // clocks of half an MA period
@@ -47,12 +53,26 @@ void read_quirks(TomlReader& reader, ChipConfig& chip) {
   }
 }
 
+// SCLK is at most a quarter of the clock; without the key an eighth, and no more than 10 MHz.
+void read_sclk(TomlReader& reader, std::uint64_t clk, HostConfig& host) {
+  if (host.interface != HostInterface::kSpi) return;
+  host.sclk_hz = clk == 0 ? kUsualSclkHz : std::clamp<std::uint64_t>(clk / 8, 1, kUsualSclkHz);
+  const auto hz = reader.integer("sclk_hz", kMinSclkHz, kMaxSclkHz);
+  if (!hz) return;
+  host.sclk_hz = static_cast<std::uint64_t>(*hz);
+  if (clk != 0 && host.sclk_hz > clk / 4) {
+    reader.fail("sclk_hz", "the master takes at most a quarter of its clock, " +
+                               std::to_string(clk / 4) + " Hz");
+  }
+}
+
 // MA is the clock divided by twice 1 to 255.
 void read_host(TomlReader& reader, const ChipConfig& chip, HostConfig& host) {
   const std::uint64_t clk = chip.f_clk_hz;
   const std::uint64_t half = (clk + 2 * kAxiMaxMaHz - 1) / (2 * kAxiMaxMaHz);
   host.ma_hz = clk == 0 ? kAxiMaxMaHz : clk / (2 * (half == 0 ? 1 : half));
   read_frame_key(reader, host);
+  read_sclk(reader, clk, host);
   const auto hz = reader.integer("ma_hz", 1, kMaxClkHz);
   if (!hz) return;
   host.ma_hz = static_cast<std::uint64_t>(*hz);

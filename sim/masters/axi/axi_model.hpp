@@ -31,6 +31,13 @@ inline constexpr unsigned kAxiEnableActiveLow = 8;
 inline constexpr unsigned kAxiSwitches = 15;
 inline constexpr unsigned kAxiPorPin = 16;
 
+// Levels at the inputs of biss_spi.
+struct SpiLevels {
+  bool ncs = true;
+  bool sclk = false;
+  bool mosi = false;
+};
+
 class AxiModel : public MasterModel, public WordManager {
  public:
   // Bits of outputs() beside MA.
@@ -40,6 +47,7 @@ class AxiModel : public MasterModel, public WordManager {
   static constexpr Outputs kDone = own(3);       // changes at the end of each access
   static constexpr Outputs kBeat = own(4);       // changes with each beat of the stream
   static constexpr Outputs kIrq = own(5);        // pin irq
+  static constexpr Outputs kMiso = own(6);       // behind SPI: pin miso
 
   // Number of channels that the model has: at least those of the scenario.
   virtual unsigned channels() const = 0;
@@ -52,6 +60,9 @@ class AxiModel : public MasterModel, public WordManager {
   virtual bool ext_sample_clk() const = 0;
   virtual bool sample_en() const = 0;
   virtual bool slo(unsigned line) const = 0;
+  // The pins of SPI; they count in a model of make_axi_spi_model() only.
+  virtual void set_spi(Time now, const SpiLevels& levels) = 0;
+  virtual SpiLevels spi() const = 0;
 
   // A waveform of pins, registers and encoders from now on. Throws TraceError if it cannot be
   // written.
@@ -76,6 +87,11 @@ class AxiModel : public MasterModel, public WordManager {
 // enough is made. `plain`: each edge is evaluated in the simplest way.
 std::unique_ptr<AxiModel> make_axi_model(const ChipConfig& chip, unsigned channels,
                                          std::uint64_t seed, bool plain);
+
+// The same behind SPI: 1 or 4 channels as the document, 4 with all extras.
+inline constexpr unsigned kAxiSpiChannels = 4;
+std::unique_ptr<AxiModel> make_axi_spi_model(const ChipConfig& chip, unsigned channels,
+                                             std::uint64_t seed, bool plain);
 
 }  // namespace mb4::sim
 

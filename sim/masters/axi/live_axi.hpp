@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The BiSS C master with N channels in a simulation. Its host by name: "axi".
+// The BiSS C master with N channels in a simulation. Its hosts by name: "axi", or "spi" and
+// "words", which sends words as frames of "spi".
 #ifndef MB4SIM_LIVE_AXI_HPP_
 #define MB4SIM_LIVE_AXI_HPP_
 
@@ -11,6 +12,7 @@
 #include <string_view>
 
 #include "sim/hosts/host_pins.hpp"
+#include "sim/hosts/spi_host.hpp"
 #include "sim/hosts/word_access.hpp"
 #include "sim/hosts/word_host.hpp"
 #include "sim/masters/axi/axi_hints.hpp"
@@ -51,6 +53,27 @@ class AxiHost final : public PollingWordHost, public StreamSink {
   AxiSetup setup_;
 };
 
+// Words as frames of SPI (docs/axi.md, "biss_spi").
+class AxiSpiWords final : public WordHost {
+ public:
+  AxiSpiWords(SpiHost& spi, AxiSetup& setup) : spi_(spi), setup_(setup) {}
+
+  // kNotTaken: the answer of the frame does not say that it was understood. The frame writes all
+  // four bytes; another strobe is kNotTaken, and nothing is sent.
+  std::optional<std::uint8_t> write(std::uint32_t address, std::uint32_t data,
+                                    std::uint8_t strobe) override;
+  std::optional<std::uint8_t> read(std::uint32_t address, std::uint32_t& data) override;
+  std::uint32_t last_address() const override { return 0xFF; }
+
+  static constexpr std::uint8_t kNotTaken = 2;
+
+ private:
+  std::uint8_t exchange(std::uint8_t opcode, std::uint32_t address, std::uint32_t& data);
+
+  SpiHost& spi_;
+  AxiSetup& setup_;
+};
+
 class LiveAxi final : public LiveMaster {
  public:
   explicit LiveAxi(const MasterSetup& setup);
@@ -66,7 +89,7 @@ class LiveAxi final : public LiveMaster {
   void start_trace(const TraceFile& file) override { model_->start_wave(file); }
   void stop_trace() override { model_->stop_wave(); }
 
-  HostModel* host(std::string_view name) override { return name == "axi" ? &host_ : nullptr; }
+  HostModel* host(std::string_view name) override;
   std::vector<Hint> hints(std::span<const HintLine> lines, std::uint64_t missed) override {
     return host_.setup().hints(config_, lines, missed);
   }
@@ -77,11 +100,15 @@ class LiveAxi final : public LiveMaster {
   MasterModel::Outputs lines_;
   std::unique_ptr<AxiModel> model_;
   AxiHost host_;
+  bool behind_spi_;
+  SpiHost spi_;
+  AxiSpiWords words_;
   bool aresetn_ = false;
   bool por_n_ = false;
 };
 
-// Pins by the document's names; ma0 to ma15 and slo0 to slo15 are the lines.
+// Pins by the document's names; those of SPI are ncs, sclk, mosi, miso; ma0 to ma15 and slo0 to
+// slo15 are the lines.
 std::optional<Pin> axi_pin_by_name(std::string_view name);
 
 }  // namespace mb4::sim

@@ -45,6 +45,8 @@ class VerilatedAxi final : public OneClockMaster<VerilatedAxi<Model, kChannels, 
     m.switches_i = static_cast<CData>(chip.quirks & kAxiSwitches);
     m.s_axis_tready = 1;
     m.slo_i = static_cast<Slo>((1U << kChannels) - 1);
+    m.cs_ni = 1;
+    m.sclk_i = m.mosi_i = 0;
     m.ext_sample_clk_i = 0;
     m.sample_en_i = 1;
     this->reset_by_edges([&m](bool active) { m.rst_ni = m.por_ni = active ? 0 : 1; });
@@ -83,6 +85,16 @@ class VerilatedAxi final : public OneClockMaster<VerilatedAxi<Model, kChannels, 
   }
   bool ext_sample_clk() const override { return model_->ext_sample_clk_i != 0; }
   bool sample_en() const override { return model_->sample_en_i != 0; }
+  void set_spi(Time now, const SpiLevels& levels) override {
+    model_->cs_ni = levels.ncs ? 1 : 0;
+    model_->sclk_i = levels.sclk ? 1 : 0;
+    model_->mosi_i = levels.mosi ? 1 : 0;
+    this->move();
+    this->show(now);
+  }
+  SpiLevels spi() const override {
+    return {model_->cs_ni != 0, model_->sclk_i != 0, model_->mosi_i != 0};
+  }
   bool slo(unsigned line) const override { return ((model_->slo_i >> line) & 1U) != 0; }
 
   void start_wave(const TraceFile& file) override {
@@ -150,6 +162,7 @@ class VerilatedAxi final : public OneClockMaster<VerilatedAxi<Model, kChannels, 
     const Model& m = *model_;
     Outputs out = kAbsent | toggles_ | m.error_no * AxiModel::kError | m.warn_no * AxiModel::kWarn |
                   m.sample_clk_o * AxiModel::kSampleClk | m.irq_o * AxiModel::kIrq;
+    if constexpr (requires { Inside::kSpi; }) out |= m.miso_o * AxiModel::kMiso;
     for (unsigned line = 0; line < kChannels; ++line) {
       out |= Outputs{(m.ma_o >> line) & 1U} * MasterModel::of_line(line, kMaPin);
     }

@@ -44,45 +44,54 @@ const std::array<ChannelNames, kAxiChannels>& channel_names() {
 }  // namespace
 
 // The first groups are those that a user of the master sees.
-std::vector<WaveGroup> axi_wave_groups(const HostConfig& /*host*/) {
+std::vector<WaveGroup> axi_wave_groups(const HostConfig& host) {
+  const WaveGroup spi{
+      "SPI", true, {{"", "ncs"}, {"", "sclk"}, {"", "mosi"}, {"", "miso"}}, {"gen_spi.u_spi."}};
+  const std::vector<WaveGroup> axi{{"write",
+                                    false,
+                                    {{"", "S_AXI_AWVALID"},
+                                     {"", "S_AXI_AWREADY"},
+                                     {"", "S_AXI_AWADDR"},
+                                     {"", "S_AXI_WVALID"},
+                                     {"", "S_AXI_WREADY"},
+                                     {"", "S_AXI_WDATA"},
+                                     {"", "S_AXI_WSTRB"},
+                                     {"", "S_AXI_BVALID"},
+                                     {"", "S_AXI_BREADY"},
+                                     {"", "S_AXI_BRESP"}},
+                                    {}},
+                                   {"read",
+                                    false,
+                                    {{"", "S_AXI_ARVALID"},
+                                     {"", "S_AXI_ARREADY"},
+                                     {"", "S_AXI_ARADDR"},
+                                     {"", "S_AXI_RVALID"},
+                                     {"", "S_AXI_RREADY"},
+                                     {"", "S_AXI_RDATA"},
+                                     {"", "S_AXI_RRESP"}},
+                                    {}}};
+  const WaveGroup stream{"stream",
+                         true,
+                         {{"", "s_axis_tvalid"},
+                          {"", "s_axis_tready"},
+                          {"", "s_axis_tlast"},
+                          {"", "s_axis_tuser"},
+                          {"", "s_axis_tdata"}},
+                         {}};
+  const bool behind_spi = host.interface == HostInterface::kSpi;
   std::vector<WaveGroup> groups{
-      {"clock and reset", true, {{"", "axi_aclk"}, {"", "axi_aresetn"}, {"", "por_n"}}, {}},
-      {"write",
-       false,
-       {{"", "S_AXI_AWVALID"},
-        {"", "S_AXI_AWREADY"},
-        {"", "S_AXI_AWADDR"},
-        {"", "S_AXI_WVALID"},
-        {"", "S_AXI_WREADY"},
-        {"", "S_AXI_WDATA"},
-        {"", "S_AXI_WSTRB"},
-        {"", "S_AXI_BVALID"},
-        {"", "S_AXI_BREADY"},
-        {"", "S_AXI_BRESP"}},
-       {}},
-      {"read",
-       false,
-       {{"", "S_AXI_ARVALID"},
-        {"", "S_AXI_ARREADY"},
-        {"", "S_AXI_ARADDR"},
-        {"", "S_AXI_RVALID"},
-        {"", "S_AXI_RREADY"},
-        {"", "S_AXI_RDATA"},
-        {"", "S_AXI_RRESP"}},
-       {}},
-      {"sample clock",
-       true,
-       {{"", "ext_sample_clk"}, {"", "sample_en"}, {"", "sample_clk_output"}},
-       {}},
-      {"stream",
-       true,
-       {{"", "s_axis_tvalid"},
-        {"", "s_axis_tready"},
-        {"", "s_axis_tlast"},
-        {"", "s_axis_tuser"},
-        {"", "s_axis_tdata"}},
-       {}},
-      {"pins", true, {{"", "error"}, {"", "warn"}, {"", "irq"}}, {}}};
+      {"clock and reset", true, {{"", "axi_aclk"}, {"", "axi_aresetn"}, {"", "por_n"}}, {}}};
+  if (behind_spi) {
+    groups.push_back(spi);
+  } else {
+    groups.insert(groups.end(), axi.begin(), axi.end());
+  }
+  groups.push_back({"sample clock",
+                    true,
+                    {{"", "ext_sample_clk"}, {"", "sample_en"}, {"", "sample_clk_output"}},
+                    {}});
+  if (!behind_spi) groups.push_back(stream);
+  groups.push_back({"pins", true, {{"", "error"}, {"", "warn"}, {"", "irq"}}, {}});
   for (const ChannelNames& names : channel_names()) {
     groups.push_back({names.group,
                       true,

@@ -62,7 +62,7 @@ class AxiPageBlock : public testing::Test {
 TEST_F(AxiPageBlock, Identity_IsThatOfTheCommonPage) {
   EXPECT_EQ(read(reg::kAddrId), 0x454E'4302U);
   EXPECT_EQ(read(reg::kAddrVersion), reg::kResetVersion);
-  EXPECT_EQ(read(reg::kAddrFeatures), 5U << 16U | 0xAU << 9U | 0x1FFU);
+  EXPECT_EQ(read(reg::kAddrFeatures), 5U << 16U | 1U << 13U | 0xAU << 9U | 0x1FFU);
 }
 
 TEST_F(AxiPageBlock, EachEvent_SetsItsBit) {

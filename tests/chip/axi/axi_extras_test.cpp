@@ -45,9 +45,9 @@ TEST(AxiExtras, Identity_IsTheCommonPage) {
     AxiBench bench(full(axi_scenario(std::vector<AxiEncoder>(channels))));
     EXPECT_EQ(bench.read(axireg::kAddrId), 0x454E'4302U);
     EXPECT_EQ(bench.read(axireg::kAddrVersion), axireg::kResetVersion);
-    EXPECT_EQ(bench.read(axireg::kAddrFeatures), channels << 16U | 1U << 9U | 0x1FFU);
+    EXPECT_EQ(bench.read(axireg::kAddrFeatures), channels << 16U | 1U << 13U | 1U << 9U | 0x1FFU);
     // Words without a register.
-    for (unsigned address : {0x5CU, 0xA4U, 0xC0U, 0xFCU}) {
+    for (unsigned address : {0x5CU, 0xB0U, 0xC0U, 0xFCU}) {
       bench.write(static_cast<std::uint8_t>(address), ~0U);
       EXPECT_EQ(bench.read(static_cast<std::uint8_t>(address)), 0U) << address;
     }

@@ -147,7 +147,13 @@ TEST(AxiScenario, WhatTheMasterDoesNotHave_IsRefusedByKey) {
   EXPECT_NE(error(master + channel + slave + slave).find("more than 1 slave on a channel"),
             std::string::npos);
   EXPECT_NE(error(master + "[[channel]]\nnumber = 17\n").find("key 'number'"), std::string::npos);
-  EXPECT_NE(error(master + "[host]\ninterface = \"spi\"\n").find("axi"), std::string::npos);
+  EXPECT_NE(error(master + "[host]\ninterface = \"wb\"\n").find("axi"), std::string::npos);
+  const std::string spi = "[host]\ninterface = \"spi\"\n";
+  EXPECT_EQ(error(master + spi + channel + slave), "");
+  EXPECT_NE(error(master + "[chip]\nf_clk_hz = 48_000_000\n" + spi + "sclk_hz = 12_000_001\n")
+                .find("key 'sclk_hz'"),
+            std::string::npos);
+  EXPECT_NE(error(master + "[host]\nsclk_hz = 1_000_000\n").find("sclk_hz"), std::string::npos);
   EXPECT_NE(error(master + "[host]\nma_hz = 3_000_000\n").find("key 'ma_hz'"), std::string::npos);
   EXPECT_NE(error(master + "[chip.quirks]\nREVISION = 0x20\n").find("key 'REVISION'"),
             std::string::npos);

@@ -30,7 +30,8 @@ constexpr bool of_channel(unsigned address) {
   constexpr unsigned kAll[] = {
       regs::kAddrReceivedCrc,   regs::kAddrCalculatedCrc, regs::kAddrSinglePointData,
       regs::kAddrLineDelay,     regs::kAddrPositionHigh,  regs::kAddrFrameCount,
-      regs::kAddrCrcErrorCount, regs::kAddrLateCount,     regs::kAddrDelayReference};
+      regs::kAddrCrcErrorCount, regs::kAddrLateCount,     regs::kAddrDelayReference,
+      regs::kAddrLastStatus,    regs::kAddrLastPosition,  regs::kAddrLastPositionHigh};
   return std::find(std::begin(kAll), std::end(kAll), address) != std::end(kAll);
 }
 
@@ -217,7 +218,7 @@ RegisterMap AxiSession::registers() {
   };
   const std::uint32_t index = read(regs::kAddrChannelIndex);
   const unsigned last =
-      has_extras(simulator_.scenario()) ? regs::kAddrStreamStatus : regs::kAddrLineDelay;
+      has_extras(simulator_.scenario()) ? regs::kAddrLastPositionHigh : regs::kAddrLineDelay;
   for (unsigned address = 0; address <= last; address += sizeof(std::uint32_t)) {
     map.words.push_back(read(address));
   }
