@@ -294,6 +294,30 @@ bool read_ends(Port& port, unsigned channel, std::uint32_t& ends) {
   return true;
 }
 
+// Makes the rising edge at REQUEST until a read has started. An edge in a timeout, or in a frame of
+// another mode, is skipped. A timeout ends when SLO rises, at any instant, so the request is
+// repeated, but not faster than every two microseconds. False: every edge was skipped.
+template <typename Port, typename Clock>
+Result<bool> request_until_taken(Port& port, Clock& clock, const WaitTimes& times) {
+  constexpr std::uint32_t kAgainUs = 2;
+  std::uint32_t skips = 0, value = 0, next = 0, passed = 0;
+  if (!port.read(regs::kAddrSkipCount, skips)) return Error::kBus;
+  Watch<Port, Clock> watch(port, clock);
+  const std::uint32_t longest = times.timeout_us + times.frame_us;
+  for (std::uint32_t n = 0; n < kMostPolls && passed <= longest; ++n) {
+    if (!watch.passed(passed)) return Error::kBus;
+    if (passed < next) continue;
+    next = passed + kAgainUs;
+    if (!port.write(regs::kAddrRequest, 0) || !port.write(regs::kAddrRequest, 1) ||
+        !port.read(regs::kAddrSinglePointValid, value) || !port.read(regs::kAddrSkipCount, value)) {
+      return Error::kBus;
+    }
+    if (value == skips) return true;
+    skips = value;
+  }
+  return false;
+}
+
 // single_point() for a master with counters that clears SINGLE_POINT_VALID at a request. Nothing is
 // reset, and it ends when the channels have ended their frames.
 template <typename Port, typename Clock>
@@ -303,31 +327,12 @@ Result<std::uint32_t> single_point_by_counters(Port& port, Clock& clock, const W
   for (unsigned c = 0; c < regs::kChannels; ++c) {
     if ((channels >> c & 1U) != 0 && !read_ends(port, c, before[c])) return Error::kBus;
   }
-  std::uint32_t skips = 0;
-  std::uint32_t value = 0;
-  if (!port.read(regs::kAddrSkipCount, skips)) return Error::kBus;
-  // An edge in a timeout, or in a frame of another mode, is skipped. A timeout ends when SLO rises,
-  // at any instant, so the request is repeated, but not faster than every two microseconds.
-  constexpr std::uint32_t kAgainUs = 2;
-  Watch<Port, Clock> asking(port, clock);
-  const std::uint32_t longest = times.timeout_us + times.frame_us;
-  bool skipped = true;
-  std::uint32_t next = 0, passed = 0;
-  for (std::uint32_t n = 0; n < kMostPolls && skipped && passed <= longest; ++n) {
-    if (!asking.passed(passed)) return Error::kBus;
-    if (passed < next) continue;
-    next = passed + kAgainUs;
-    if (!port.write(regs::kAddrRequest, 0) || !port.write(regs::kAddrRequest, 1) ||
-        !port.read(regs::kAddrSinglePointValid, value) || !port.read(regs::kAddrSkipCount, value)) {
-      return Error::kBus;
-    }
-    skipped = value != skips;
-    skips = value;
-  }
-  if (skipped) return std::uint32_t{0};
+  const Result<bool> taken = request_until_taken(port, clock, times);
+  if (!taken.ok()) return taken.error();
+  if (!*taken) return std::uint32_t{0};
   Watch<Port, Clock> watch(port, clock);
   Looks looks(times);
-  std::uint32_t waited = channels;
+  std::uint32_t waited = channels, passed = 0, value = 0;
   for (std::uint32_t n = 0; n < kMostPolls && waited != 0; ++n) {
     if (!watch.passed(passed)) return Error::kBus;
     const bool last = passed > times.frame_us;  // and look once more
