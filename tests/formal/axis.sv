@@ -45,19 +45,19 @@ module proof (
   logic [14:0] queue_q;
   logic [2:0]  count_q;
   logic        fresh_q;   // one of them has come in the clock before: the output cannot have it
-  wire         pop    = count_q != 3'd0 && ready_i;
+  wire         pop    = count_q > {2'd0, fresh_q} && ready_i;
   wire         accept = push_i && count_q != 3'd5;
   wire [14:0]  rest   = pop ? {3'd0, queue_q[14:3]} : queue_q;
   wire [2:0]   left   = pop ? count_q - 3'd1 : count_q;
   always @(posedge clk_i) begin
     queue_q <= rest;
     count_q <= left;
-    fresh_q <= accept && rst_ni;
+    fresh_q <= accept;
     if (accept) begin
       queue_q <= (rest & ~(15'd7 << 3 * left)) | ({12'd0, beat_i} << 3 * left);
       count_q <= left + 3'd1;
     end
-    if (!rst_ni) count_q <= '0;
+    if (!rst_ni) {count_q, fresh_q} <= '0;
   end
 
   // The output before this clock, if it was not taken.
