@@ -47,7 +47,6 @@ module dsl_bus #(
   output logic             link_o,
   output logic             sample_edge_o,
   output logic             position_ready_o,
-  output logic [4:0]       interrupts_o,
   // DSL
   output logic             dsl_out_o,
   output logic             dsl_en_o,
@@ -153,7 +152,6 @@ module dsl_bus #(
     .link_o,
     .sample_edge_o,
     .position_ready_o,
-    .interrupts_o,
     .dsl_out_o,
     .dsl_en_o,
     .dsl_in_i

@@ -11,7 +11,7 @@
 // Only running frames move the quality (running_i). VSYNC belongs into the last of the eight frames
 // alone; where S_PAR has an error of its code, VSYNC is not looked at. The acceleration has one
 // deduction for both of its words. With the strict check K28.x is a byte like others but in S_PAR.
-// verdict_i is looked at behind ends_o. illegal_o comes in each frame with words (words_i).
+// verdict_i is looked at behind ends_o. illegal_o counts in each frame with words (words_i).
 // Misuse: a word less than two clocks behind another, or ends_o less than two behind a word, loses
 // events.
 // Source: docs/dsl.md, "Choices of this master".
@@ -41,7 +41,7 @@ module dsl_judge (
   output logic              good_o,
   output logic [3:0]        quality_o,
   output logic              low_o,
-  output logic              illegal_o      // one clock: only the strict check refuses a word
+  output logic [15:0]       illegal_o
 );
 
   localparam logic [2:0] VERTICAL   = 3'd0;
@@ -62,6 +62,7 @@ module dsl_judge (
   logic           before_q;              // the word before had an error of its code
   logic           ends_q;                // the steps at the end of a frame, one clock each
   logic           safe1_q, safe2_q, judged_q;
+  logic [15:0]    illegal_q;
   logic           vsync, last, k28;
   logic           marker;                // allowed there
   logic           special;               // one that must not be there
@@ -151,6 +152,7 @@ module dsl_judge (
       safe1_q   <= 1'b0;
       safe2_q   <= 1'b0;
       judged_q  <= 1'b0;
+      illegal_q <= '0;
     end else begin
       valid_q  <= word_valid_i;
       second_q <= valid_q;
@@ -163,6 +165,7 @@ module dsl_judge (
         word_q   <= decoded;
         before_q <= word_q.error;
       end
+      if (valid_q && words_i && word_q.only_strict) illegal_q <= illegal_q + 16'd1;
     end
   end
 
@@ -171,6 +174,6 @@ module dsl_judge (
   assign word_o    = word_q;
   assign ends_o    = ends_q;
   assign judged_o  = judged_q;
-  assign illegal_o = valid_q && words_i && word_q.only_strict;
+  assign illegal_o = illegal_q;
 
 endmodule

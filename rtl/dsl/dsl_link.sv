@@ -15,7 +15,6 @@
 // identity is good if its two copies agree, and if its widths can be: 8 to 11 bits for the
 // acceleration, 40 at most for the position. With strict_id it also has to be whole, and the link
 // ends with a safe position that has bits above the width. A vsync_limit of 0 is none.
-// symbol_i may change with begin_i alone.
 // hold_i: the frame is finished, then the driver is off up to the end of hold_i. This is no restart
 // that counts.
 // Misuse: none.
@@ -28,7 +27,6 @@ module dsl_link (
   input  logic             hold_i,
   // frames
   input  logic             begin_i,
-  input  logic [4:0]       symbol_i,       // of M_PAR in a running frame
   output dsl_pkg::plan_t   plan_o,
   output logic             gap_o,
   // windows
@@ -51,7 +49,7 @@ module dsl_link (
   output logic [2:0]       place_o,        // of a running frame in its vertical frame
   output logic [3:0]       state_o,        // dsl_pkg::state_e
   output logic [2:0]       reason_o,       // dsl_pkg::reason_e
-  output logic             restart_o,      // one clock: the link begins again
+  output logic [15:0]      resets_o,
   output logic [19:0]      identity_o,
   output logic [5:0]       width_o         // of the position, less 8
 );
@@ -71,6 +69,7 @@ module dsl_link (
   logic        wrong_d, wrong_q;   // the pattern or the identity of this frame
   logic        linked_q, begins_q;
   logic [2:0]  reason_q;
+  logic [15:0] resets_q;
   logic [7:0]  low_q, high_q;      // bytes of the identity
   logic [3:0]  top_q;
   logic        last;               // frame of this state
@@ -130,12 +129,8 @@ module dsl_link (
       dsl_pkg::CHECK_STATE: plan_o.parameter_byte = {3'd0, dsl_pkg::CHECK};
       dsl_pkg::ID_STATE:    plan_o.parameter_byte = {3'd0, dsl_pkg::ID_REQUEST};
       dsl_pkg::VSYNC_STATE: plan_o.parameter_byte = FIRST | {3'd0, dsl_pkg::INIT};
-      dsl_pkg::RUN_STATE: begin
-        plan_o.parameter_byte[4:0] = symbol_i;
-        // msync changes with each vertical frame.
-        plan_o.parameter_byte[6]   = count_q[3];
-      end
-      default: ;
+      // msync changes with each vertical frame.
+      default:              plan_o.parameter_byte[6] = count_q[3];
     endcase
   end
   always_comb begin
@@ -187,6 +182,7 @@ module dsl_link (
       linked_q <= 1'b0;
       begins_q <= 1'b0;
       reason_q <= dsl_pkg::NO_RESTART;
+      resets_q <= '0;
       low_q    <= '0;
       high_q   <= '0;
       top_q    <= '0;
@@ -206,6 +202,7 @@ module dsl_link (
         // Each state has its reason, RUN three.
         reason_q <= (state_q[2:0] - 3'd2) | {2'd0, running && good_i};
         if (running && good_i && !missing_i) reason_q <= dsl_pkg::BAD_IDENTITY;
+        resets_q <= resets_q + 16'd1;
       end
       if (asks && valid_i && number_i == 3'd0) low_q  <= word_i.data;
       if (asks && valid_i && number_i == 3'd1) high_q <= word_i.data;
@@ -220,7 +217,7 @@ module dsl_link (
   assign place_o    = count_q[2:0];
   assign state_o    = state_q;
   assign reason_o   = reason_q;
-  assign restart_o  = restart;
+  assign resets_o   = resets_q;
   assign identity_o = {top_q, high_q, low_q};
   assign width_o    = width[5:0];
 

@@ -20,10 +20,6 @@
 //
 // time_i: the byte of the frame's time; time_next_o asks for the next one, eight times a frame, the
 // lowest one first. The first one is taken 5 clocks or more behind the second word.
-// stale_o: with the last vertical frame safe position 1 and the fast one should have been the same,
-// and were not. mismatch_o: it had two good safe positions, which differ by more than tolerance_i
-// in the safe2_bits_i that the second one has (more than the position has are as many as it has);
-// it is right from tell_o of the frame behind it on.
 // Misuse: a frame that ends before tell_o of the frame before is left out. A width of more than 40
 // bits is a position without bits.
 // Source: docs/dsl.md, "Position".
@@ -35,13 +31,9 @@ module dsl_position (
   input  dsl_pkg::answer_t      answer_i,
   input  dsl_pkg::told_t        told_i,
   input  dsl_pkg::line_status_t status_i,
-  input  logic [7:0]            safe2_bits_i,      // of safe position 2; 0: it is not compared
-  input  logic [7:0]            tolerance_i,       // of the comparison, in its steps
   input  logic [7:0]            time_i,
   output logic                  time_next_o,
   output logic                  lost_o,            // POS
-  output logic                  stale_o,           // safe and fast position did not agree
-  output logic                  mismatch_o,        // the two safe positions do not agree
   // record
   output logic                  record_write_o,
   output logic [5:0]            record_address_o,
@@ -53,7 +45,6 @@ module dsl_position (
   localparam logic [2:0] HIGH_WORD  = 3'd3;
   localparam logic [2:0] LOW_WORD   = 3'd4;
   localparam logic [2:0] SECONDARY  = 3'd5;
-  localparam logic [2:0] FIRST_PLACE = 3'd0;
   localparam logic [2:0] LAST_PLACE = 3'd7;
   localparam int unsigned SIGNED    = 10;    // bit of the identity
 
@@ -65,7 +56,7 @@ module dsl_position (
   dsl_program_pkg::sum_t        sum;
   dsl_program_pkg::jump_t       jump;
   dsl_program_pkg::conditions_t conditions;
-  logic [15:0]                  condition_bits;
+  logic [14:0]                  condition_bits;
   logic                         is_sum, set, tell;
   logic                         taken, next;
 
@@ -93,9 +84,6 @@ module dsl_position (
   logic [4:0] word_to;
   logic [2:0] word_index;
   logic       frame_q, begun_q, vertical_q, ended_q;
-  logic       check_q;        // the frame is the one behind a vertical frame
-  logic       mismatch_q;
-  logic       unlike_q;
   logic       ran_q;          // the record is one of a running frame
   logic       shown_q;        // a record shows a link
   logic [2:0] align_q;        // dsl_program_pkg::align_e
@@ -121,8 +109,6 @@ module dsl_position (
   assign set    = sum.kind == dsl_program_pkg::SET;
   assign tell   = sum.kind == dsl_program_pkg::TELL;
 
-  assign conditions.check     = check_q && told_i.safe1_valid && told_i.safe2_valid
-                             && safe2_bits_i != 8'd0;
   assign conditions.over      = shown_q && !answer_i.linked;
   assign conditions.is_signed = status_i.identity[SIGNED];
   assign conditions.in_state  = align_q == jump.state;
@@ -180,10 +166,8 @@ module dsl_position (
 
   always_comb begin
     in = time_i;
-    if (sum.second[2:0] == dsl_program_pkg::IN_WIDTH) in = {1'b0, {1'b0, status_i.width} + 7'd8};
-    if (sum.second[2:0] == dsl_program_pkg::IN_BITS) in = safe2_bits_i;
-    if (sum.second[2:0] == dsl_program_pkg::IN_TOLERANCE) in = tolerance_i;
-    if (sum.second[2:0] == dsl_program_pkg::IN_STATUS) begin
+    if (sum.second[1:0] == dsl_program_pkg::IN_WIDTH) in = {1'b0, {1'b0, status_i.width} + 7'd8};
+    if (sum.second[1:0] == dsl_program_pkg::IN_STATUS) begin
       case (index_q[1:0])
         2'd0:    in = status0;
         2'd1:    in = {status_i.place[11:8], status_i.quality};
@@ -290,9 +274,6 @@ module dsl_position (
       shown_q    <= 1'b0;
       ended_q    <= 1'b0;
       vertical_q <= 1'b0;
-      check_q    <= 1'b0;
-      mismatch_q <= 1'b0;
-      unlike_q   <= 1'b0;
       stale_q    <= '0;
       align_q    <= dsl_program_pkg::FIRST;
       certain_q  <= 1'b0;
@@ -305,30 +286,18 @@ module dsl_position (
       shown_q <= answer_i.linked || frame_q || (shown_q && !(tell_o && jump.unused[0]));
       // told_i is right a clock later.
       ended_q <= answer_i.ends && answer_i.running && answer_i.place == LAST_PLACE;
-      if (answer_i.ends) begin
-        vertical_q <= answer_i.running && answer_i.place == LAST_PLACE;
-        check_q    <= answer_i.running && answer_i.place == FIRST_PLACE;
-      end
-      if (ended_q || answer_i.begins)               unlike_q <= 1'b0;
-      else if (run && set && jump.unused[0])        unlike_q <= 1'b1;
-      if (answer_i.begins || (answer_i.ends && answer_i.place == FIRST_PLACE)) begin
-        mismatch_q <= 1'b0;
-      end else if (run && set && jump.state == dsl_program_pkg::MISMATCH) begin
-        mismatch_q <= 1'b1;
-      end
+      if (answer_i.ends) vertical_q <= answer_i.running && answer_i.place == LAST_PLACE;
       if (answer_i.begins) stale_q <= '0;
       else if (ended_q)    stale_q <= told_i.safe1_valid ? 2'd0 : stale_d;
       certain_q <= !lost_o;
       if (!answer_i.linked) align_q <= dsl_program_pkg::FIRST;
-      else if (run && set && jump.state != dsl_program_pkg::MISMATCH) align_q <= jump.state;
+      else if (run && set)  align_q <= jump.state;
     end
   end
 
   assign time_next_o      = run && is_sum && second_q && sum.source == dsl_program_pkg::INPUT
-                         && sum.second[2:0] == dsl_program_pkg::IN_TIME;
+                         && sum.second[1:0] == dsl_program_pkg::IN_TIME;
   assign lost_o           = align_q != dsl_program_pkg::ALIGNED || !(certain_q || tell_o);
-  assign stale_o          = unlike_q;
-  assign mismatch_o       = mismatch_q;
   assign record_write_o   = write && result_to[7:6] == 2'd0;
   assign record_address_o = result_to[5:0];
   assign record_data_o    = total;

@@ -71,9 +71,8 @@ class DslPositionBlock : public testing::Test {
     v.answer_i = m.answer_i = 0;
     m.told_i = 0;
     m.time_i = 0;
-    m.safe2_bits_i = m.tolerance_i = 0;
     v.quirks_i = m.quirks_i = quirks_of({});
-    m.status_i = status.bits();
+    status.write(m.status_i);
     vertical_block.reset();
     position_block.reset();
     until_told(1500);
@@ -155,7 +154,7 @@ class DslPositionBlock : public testing::Test {
     status.width = bits;
     status.identity =
         (is_signed ? 1U << 10U : 0U) | (bits - acceleration_bits) << 4U | (acceleration_bits - 8);
-    m.status_i = status.bits();
+    status.write(m.status_i);
     end_link();
     port.linked = port.begins = true;
     clock();
@@ -213,7 +212,7 @@ class DslPositionBlock : public testing::Test {
     status.delay = random.below(16);
     status.state = random.below(16);
     status.reason = random.below(8);
-    m.status_i = status.bits();
+    status.write(m.status_i);
     sampled = time;
     ASSERT_FALSE(pending);
     ended = clocks_ever;
