@@ -143,6 +143,7 @@ def self_test(masters, table, compared, proofs):
     bare = copy.deepcopy(masters)
     bare["axi"].gates, bare["axi"].measured, bare["axi"].core = {}, {}, None
     bare["axi"].tops["biss_axi"].buses, bare["axi"].tops["biss_axi"].generics = [], None
+    bare["axi"].tops["biss_spi"].plain = False
     for what in ("netlist", "measured", "buses", "release", "core"):
         expect(f"axi: {what}: ", masters=bare)
     unread = copy.deepcopy(masters)
