@@ -17,6 +17,7 @@ void loop();
 void digitalWrite(uint8_t pin, uint8_t level);
 void pinMode(uint8_t pin, uint8_t mode);
 void delay(unsigned long ms);
+void delayMicroseconds(unsigned int us);
 unsigned long micros();
 
 struct SerialPort {

@@ -49,6 +49,7 @@ void pinMode(uint8_t, uint8_t) {}
 // The sketches wait up to a second between two reads. The chip needs no more than a few
 // milliseconds of it.
 void delay(unsigned long ms) { mb4sim_advance_ns(simulator, 1'000'000ULL * (ms < 20 ? ms : 20)); }
+void delayMicroseconds(unsigned int us) { mb4sim_advance_ns(simulator, 1'000ULL * us); }
 unsigned long micros() { return static_cast<unsigned long>(mb4sim_time_ns(simulator) / 1000); }
 
 void SerialPort::begin(unsigned long) {}
