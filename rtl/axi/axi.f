@@ -18,7 +18,6 @@ axi_delays.sv
 axi_access.sv
 axi_last.sv
 axi_extras.sv
-axi_no_axil.sv
 axi_core.sv
 axi_widths.sv
 biss_axi.sv

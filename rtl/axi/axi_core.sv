@@ -132,8 +132,17 @@ module axi_core #(
   logic [Channels-1:0]   unused_halves;
   logic error_q, warn_q, unused;
 
-  enc_reset_sync u_reset (.clk_i, .rst_ni, .rst_sync_no (rst_n));
-  enc_reset_sync u_power_on (.clk_i, .rst_ni (por_ni), .rst_sync_no (por_n));
+  enc_reset_sync u_reset (
+    .clk_i,
+    .rst_ni,
+    .rst_sync_no (rst_n)
+  );
+
+  enc_reset_sync u_power_on (
+    .clk_i,
+    .rst_ni      (por_ni),
+    .rst_sync_no (por_n)
+  );
 
   axi_regs #(.Channels(Channels)) u_regs (
     .clk_i,
@@ -258,28 +267,68 @@ module axi_core #(
 
   if (Spi) begin : gen_spi
     enc_spi #(.AddrW(8)) u_spi (
-      .clk_i, .rst_ni (rst_n), .sclk_i, .cs_ni, .mosi_i, .miso_o, .miso_oe_o,
-      .word_req_o (req), .word_write_o (write), .word_addr_o (addr), .word_data_o (wdata),
-      .word_be_o (be), .word_ready_i (1'b1), .word_data_i (rdata), .word_error_i (1'b0)
+      .clk_i,
+      .rst_ni       (rst_n),
+      .sclk_i,
+      .cs_ni,
+      .mosi_i,
+      .miso_o,
+      .miso_oe_o,
+      .word_req_o   (req),
+      .word_write_o (write),
+      .word_addr_o  (addr),
+      .word_data_o  (wdata),
+      .word_be_o    (be),
+      .word_ready_i (1'b1),
+      .word_data_i  (rdata),
+      .word_error_i (1'b0)
     );
-    axi_no_axil u_no_axil (
-      .s_axi_awvalid, .s_axi_awready, .s_axi_awaddr, .s_axi_wvalid, .s_axi_wready, .s_axi_wdata,
-      .s_axi_wstrb, .s_axi_bvalid, .s_axi_bready, .s_axi_bresp, .s_axi_arvalid, .s_axi_arready,
-      .s_axi_araddr, .s_axi_rvalid, .s_axi_rready, .s_axi_rdata, .s_axi_rresp
-    );
-    assign unused_host = 1'b0;
+
+    // Nobody answers on AXI4-Lite.
+    assign s_axi_awready = 1'b0;
+    assign s_axi_wready  = 1'b0;
+    assign s_axi_bvalid  = 1'b0;
+    assign s_axi_bresp   = 2'b00;
+    assign s_axi_arready = 1'b0;
+    assign s_axi_rvalid  = 1'b0;
+    assign s_axi_rdata   = '0;
+    assign s_axi_rresp   = 2'b00;
+    assign unused_host   = s_axi_awvalid ^ (^s_axi_awaddr) ^ s_axi_wvalid ^ (^s_axi_wdata) ^
+                           (^s_axi_wstrb) ^ s_axi_bready ^ s_axi_arvalid ^ (^s_axi_araddr) ^
+                           s_axi_rready;
   end else begin : gen_axil
     enc_axil #(.AddrW(8)) u_axil (
-      .clk_i, .rst_ni (rst_n),
-      .s_axi_awvalid, .s_axi_awready, .s_axi_awaddr (s_axi_awaddr[7:2]),
-      .s_axi_wvalid, .s_axi_wready, .s_axi_wdata, .s_axi_wstrb,
-      .s_axi_bvalid, .s_axi_bready, .s_axi_bresp,
-      .s_axi_arvalid, .s_axi_arready, .s_axi_araddr (s_axi_araddr[7:2]),
-      .s_axi_rvalid, .s_axi_rready, .s_axi_rdata, .s_axi_rresp,
-      .word_req_o (req), .word_write_o (write), .word_addr_o (addr), .word_data_o (wdata),
-      .word_be_o (be), .word_ready_i (1'b1), .word_data_i (rdata), .word_error_i (1'b0)
+      .clk_i,
+      .rst_ni       (rst_n),
+      .s_axi_awvalid,
+      .s_axi_awready,
+      .s_axi_awaddr (s_axi_awaddr[7:2]),
+      .s_axi_wvalid,
+      .s_axi_wready,
+      .s_axi_wdata,
+      .s_axi_wstrb,
+      .s_axi_bvalid,
+      .s_axi_bready,
+      .s_axi_bresp,
+      .s_axi_arvalid,
+      .s_axi_arready,
+      .s_axi_araddr (s_axi_araddr[7:2]),
+      .s_axi_rvalid,
+      .s_axi_rready,
+      .s_axi_rdata,
+      .s_axi_rresp,
+      .word_req_o   (req),
+      .word_write_o (write),
+      .word_addr_o  (addr),
+      .word_data_o  (wdata),
+      .word_be_o    (be),
+      .word_ready_i (1'b1),
+      .word_data_i  (rdata),
+      .word_error_i (1'b0)
     );
-    assign {miso_o, miso_oe_o} = 2'b00;
+
+    assign miso_o      = 1'b0;
+    assign miso_oe_o   = 1'b0;
     assign unused_host = sclk_i ^ cs_ni ^ mosi_i ^ (^{s_axi_awaddr[1:0], s_axi_araddr[1:0]});
   end
 

@@ -56,7 +56,7 @@ module biss_edge_count #(
   logic [1:0]          rises_q;
   logic signed [W-1:0] need_d;
   logic signed [W-1:0] need_q;     // edges needed minus 1; -2: one too many was sent
-  logic signed [W-1:0] sum;        // need_q after this clock
+  logic signed [W-1:0] sum;        // need_q behind this clock, without begin_i
   logic                word_d;
   logic                word_q;     // one clock after begin_i and len_valid_i: more_q is added
   logic [7:0]          more_d;

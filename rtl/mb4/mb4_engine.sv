@@ -85,6 +85,10 @@ module mb4_engine #(
   if (FEATURES[mb4_pkg::SLAVES_LSB +: 4] == 4'd0) begin : gen_range
     $error("Lines is 1 or 2, Banks 1 or 2, Slaves 1 to 8, with two lines 1 to 4 or 8");
   end
+  if (mb4_pkg::features(2, 8, 2, 1'b1, 1'b1, 1'b1, 1'b1, 1'b1, 1'b1, 1'b1) !=
+      mb4_pkg::FEATURES_FULL) begin : gen_bits
+    $error("mb4_pkg::FEATURES_FULL is not that of a chip with all features");
+  end
 `endif
 
   logic       rst_core_n;
@@ -155,7 +159,7 @@ module mb4_engine #(
   assign host.wr_data = wr_data_i;
   assign host.rd_en   = rd_en_i;
   assign host.rd_addr = rd_addr_i;
-  // SCDATA5..8: the lowest address has bit 5 set.
+  // The second reader sees SCDATA5..8, from address 0x20 on.
   assign rd2.en       = rd2_en_i;
   assign rd2.addr     = {1'b1, rd2_addr_i};
 

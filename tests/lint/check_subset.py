@@ -21,7 +21,7 @@ HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parents[1] / "tools" / "synth"))
 
 import project  # noqa: E402
-from sv_widths import split_commas  # noqa: E402
+from sv_widths import module_header, split_commas  # noqa: E402
 
 MAX_COLUMNS = 100
 USER_TYPE = r"(?:\w+::)?\w+_[te]\b"
@@ -207,14 +207,9 @@ def struct_names(code):
 @functools.cache
 def struct_ports():
     """{module: its ports of a struct type} of all RTL."""
-    found = {}
-    for path in project.RTL.rglob("*.sv"):
-        code = code_only(path.read_text(encoding="utf-8", errors="replace"))
-        header = re.search(r"\bmodule\s+(\w+).*?\)\s*;", code, re.S)
-        if header:
-            found[header.group(1)] = {m.group(1) for m in re.finditer(
-                rf"\b(?:input|output)\s+{STRUCT}\s+(\w+)", header.group(0))}
-    return found
+    return {module: {port for part in split_commas(module_header(path)[1]) if re.search(STRUCT, part)
+                     for port in re.findall(r"(\w+)\s*$", part)}
+            for module, path in project.rtl_modules().items()}
 
 
 def check_fields(file):

@@ -3,7 +3,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The width of every port: in the synthesised netlist, in the source and in Verilator's eyes.
 
-  check_ports.py packages            pkg::NAME_W is the sum of pkg::name_t's members
+  check_ports.py packages            pkg::NAME_W is the sum of pkg::name_t's members, pkg::NAME_FIELD the place of
+                                     its member field
   check_ports.py netlist FOLDER      FOLDER/all.json (check_synth.py every) against the source,
                                      modules with other than default parameters included
   check_ports.py verilator FOLDER    Verilator against the source
@@ -23,7 +24,8 @@ import verilator_ports  # noqa: E402
 import yosys  # noqa: E402
 
 # Pairs that must be there, so that the rule cannot become empty by a new name.
-NEEDED_PAIRS = {"mb4_pkg::SLAVE_CFG_W", "biss_pkg::WORD_W", "biss_pkg::LINE_DATA_W"}
+NEEDED_PAIRS = {"mb4_pkg::SLAVE_CFG_W", "biss_pkg::WORD_W", "biss_pkg::LINE_DATA_W", "axi_pkg::WORD_GOOD",
+                "axi_pkg::RESULT_DELAY", "axi_pkg::EVENT_BEGUN"}
 
 # Yosys 0.23 makes the first one too narrow without a message; a struct becomes wrong hardware.
 PLANTED = {
@@ -34,7 +36,9 @@ PLANTED = {
 
 def wrong_constants(scope):
     return [f"{name} is {value}, {kind} has {width} bits"
-            for name, value, kind, width in sv_widths.width_constants(scope) if value != width]
+            for name, value, kind, width in sv_widths.width_constants(scope) if value != width] + \
+        [f"{name} is {value}, {field} begins at bit {lsb}"
+         for name, value, field, lsb in sv_widths.place_constants(scope) if value != lsb]
 
 
 def differences(module, expected, found, witness):
@@ -52,7 +56,7 @@ def netlist_ports(module):
 
 def packages():
     scope = sv_widths.read_packages(project.rtl_packages())
-    pairs = sv_widths.width_constants(scope)
+    pairs = sv_widths.width_constants(scope) + sv_widths.place_constants(scope)
     findings = wrong_constants(scope)
     findings += [f"{name}: no such pair" for name in NEEDED_PAIRS - {pair[0] for pair in pairs}]
     project.finish(findings, ", ".join(f"{n} = {v} = {k}" for n, v, k, _ in pairs))
@@ -92,10 +96,16 @@ def verilator(folder):
 def self_test(folder):
     findings = []
     folder.mkdir(parents=True, exist_ok=True)
-    scope = sv_widths.read_packages(project.rtl_packages())
     trap = folder / "trap_pkg.sv"
-    trap.write_text("package trap_pkg;\n  typedef logic [3:0] nib_t;\nendpackage\n",
-                    encoding="utf-8")
+    trap.write_text("""package trap_pkg;
+  typedef logic [3:0] nib_t;
+  typedef struct packed { logic good; nib_t delay; } word_t;
+  typedef struct packed { word_t word; logic [1:0] slave; } offer_t;
+  localparam int unsigned WORD_GOOD = 4;
+  localparam int unsigned WORD_LIMIT = 99;  // no member: another meaning
+  localparam int unsigned OFFER_WORD = 2;
+endpackage
+""", encoding="utf-8")
     for name, (kind, width) in PLANTED.items():
         kind = kind.replace("nib_t", "trap_pkg::nib_t")
         source = folder / f"{name}.sv"
@@ -119,9 +129,14 @@ def self_test(folder):
             print("\n".join(f"reported: {line}" for line in reported))
         else:
             print(f"refused by Yosys: {text.strip()}")
-    scope.values["biss_pkg::WORD_W"] += 1
-    if len(wrong_constants(scope)) != 1:
-        findings.append("a constant that is wrong by one was not reported")
+    trapped = sv_widths.read_packages([project.RTL / "biss/biss_pkg.sv", trap])
+    for name in ("biss_pkg::WORD_W", "trap_pkg::WORD_GOOD", "trap_pkg::OFFER_WORD"):
+        if wrong_constants(trapped):
+            findings.append(f"right constants were reported: {wrong_constants(trapped)}")
+        trapped.values[name] += 1
+        if [text.split()[0] for text in wrong_constants(trapped)] != [name]:
+            findings.append(f"{name}: wrong by one, and not reported")
+        trapped.values[name] -= 1
     project.finish(findings, "planted traps, all reported")
 
 

@@ -7,12 +7,21 @@ constants, packed structs, enums, vectors with any number of packed dimensions. 
 an error, so that a construct this reader does not know never passes as checked."""
 
 import re
+from typing import NamedTuple
 
 TYPE_WORDS = {"logic": 1, "bit": 1, "wire": 1, "reg": 1, "int": 32, "integer": 32, "byte": 8}
 
 
 class WidthError(Exception):
     pass
+
+
+class Field(NamedTuple):
+    """A member of a packed struct, and the place of its lowest bit."""
+    name: str
+    width: int
+    lsb: int
+    kind: str  # the struct that it is, or ""
 
 
 def without_comments(text):
@@ -41,6 +50,7 @@ class Scope:
     def __init__(self):
         self.values = {}
         self.types = {}
+        self.structs = {}  # name of the type: its fields, the highest first
 
     def value(self, text, prefix=""):
         """An integer constant expression."""
@@ -104,8 +114,9 @@ class Scope:
             if match["decl"]:
                 self.constant(match["decl"], prefix)
             elif match["struct"]:
-                members = [m for m in match["members"].split(";") if m.strip()]
-                self.types[prefix + match["struct"]] = sum(self.member(m, prefix) for m in members)
+                fields = self.fields(match["members"], prefix)
+                self.structs[prefix + match["struct"]] = fields
+                self.types[prefix + match["struct"]] = sum(field.width for field in fields)
             elif match["enum"]:
                 self.types[prefix + match["enum"]] = self.width(match["base"] or "int", prefix)
             elif match["alias"]:
@@ -113,12 +124,22 @@ class Scope:
             else:
                 raise WidthError(f"typedef not understood: {text[match.start():][:60]!r}")
 
-    def member(self, text, prefix):
-        """All bits of one struct member line, several names allowed."""
-        match = re.fullmatch(r"\s*(.*?)((?:\b\w+\s*,\s*)*\b\w+)\s*", text, re.S)
-        if not match:
-            raise WidthError(f"struct member not understood: {text.strip()}")
-        return self.width(match.group(1), prefix) * len(match.group(2).split(","))
+    def fields(self, text, prefix):
+        """The members of a struct, the highest first; several names in a line allowed."""
+        rows = []
+        for member in filter(str.strip, text.split(";")):
+            match = re.fullmatch(r"\s*(.*?)((?:\b\w+\s*,\s*)*\b\w+)\s*", member, re.S)
+            if not match:
+                raise WidthError(f"struct member not understood: {member.strip()}")
+            kind = match.group(1).strip()
+            kind = next((key for key in (kind, prefix + kind) if key in self.structs), "")
+            rows += [(name.strip(), self.width(match.group(1), prefix), kind) for name in match.group(2).split(",")]
+        lsb = sum(width for _, width, _ in rows)
+        fields = []
+        for name, width, kind in rows:
+            lsb -= width
+            fields.append(Field(name, width, lsb, kind))
+        return fields
 
     def constant(self, text, prefix, given=None):
         """One parameter or localparam; `given` replaces its value."""
@@ -146,6 +167,18 @@ def width_constants(scope):
         kind = re.sub(r"(\w+)_W$", lambda m: m.group(1).lower() + "_t", name)
         if kind in scope.types:
             pairs.append((name, value, kind, scope.types[kind]))
+    return pairs
+
+
+def place_constants(scope):
+    """(constant, its value, field, its place) for each pair pkg::NAME_FIELD, pkg::name_t.field."""
+    pairs = []
+    for kind, fields in scope.structs.items():
+        for field in fields:
+            package, _, name = kind.removesuffix("_t").rpartition("::")
+            constant = f"{package}::{name.upper()}_{field.name.upper()}"
+            if constant in scope.values:
+                pairs.append((constant, scope.values[constant], f"{kind}.{field.name}", field.lsb))
     return pairs
 
 

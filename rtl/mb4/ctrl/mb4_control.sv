@@ -219,7 +219,9 @@ module mb4_control #(
   assign cmd2.forced      = forced[1];
   assign cmd2.force_level = force_level[1];
   assign cmd2.mo_low      = mo_low[1];
-  assign cmd_o            = {cmd2, cmd1};
+
+  assign cmd_o[0 +: biss_pkg::LINE_CMD_W]                    = cmd1;
+  assign cmd_o[biss_pkg::LINE_CMD_W +: biss_pkg::LINE_CMD_W] = cmd2;
 
   assign start1.takes_part = start_use[0];
   assign start1.cdm0       = cdm0[0];
@@ -227,7 +229,9 @@ module mb4_control #(
   assign start2.takes_part = start_use[1];
   assign start2.cdm0       = cdm0[1];
   assign start2.cdm1       = cdm1[1];
-  assign start_o           = {start2, start1};
+
+  assign start_o[0 +: biss_pkg::LINE_START_W]                      = start1;
+  assign start_o[biss_pkg::LINE_START_W +: biss_pkg::LINE_START_W] = start2;
 
   // A forced level lasts whole half periods, and a time limit counts them.
   always_ff @(posedge clk_i or negedge rst_ni) begin

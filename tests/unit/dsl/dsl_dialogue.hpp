@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstdlib>
 #include <functional>
 #include <optional>
 #include <span>
@@ -23,6 +22,7 @@
 #include "sim/core/random.hpp"
 #include "sim/lines/dsl/dsl_messages.hpp"
 #include "sim/masters/dsl_model/host_bytes.hpp"
+#include "tests/support/environment.hpp"
 
 namespace mb4::sim::dsl_test {
 
@@ -31,8 +31,7 @@ namespace host_on = dsl_model::host_bit;
 
 // Transactions of a long test: 1,000 in the suite, as many as the nightly run says.
 inline std::uint64_t transactions(std::uint64_t usual = 1000) {
-  const char* text = std::getenv("MB4_DSL_TRANSACTIONS");
-  return text == nullptr ? usual : std::strtoull(text, nullptr, 10);
+  return mb4test::number("MB4_DSL_TRANSACTIONS", usual);
 }
 
 // The bytes of a master's map.

@@ -13,11 +13,14 @@
 #include <string>
 #include <vector>
 
+#include "tests/unit/dsl/message_bytes.hpp"
+
 namespace {
 
 using namespace mb4::sim::dsl;
 using mb4::sim::RegisterFile;
-using Bytes = std::vector<std::uint8_t>;
+using mb4::sim::dsl_test::Bytes;
+using mb4::sim::dsl_test::with_crc;
 
 constexpr unsigned kIdle = 0x10;
 
@@ -59,20 +62,6 @@ std::vector<unsigned> nibbles(const Bytes& bytes, unsigned idle_before = 0,
   }
   all.insert(all.end(), idle_behind, kIdle);
   return all;
-}
-
-Bytes with_crc(Bytes bytes) {
-  // As the law has it: x^16 + x^15 + x^12 + x^7 + x^6 + x^4 + x^3 + 1, the low byte inverted.
-  unsigned rest = 0;
-  for (const std::uint8_t byte : bytes) {
-    for (unsigned i = 8; i-- > 0;) {
-      const unsigned out = (rest >> 15U ^ byte >> i) & 1U;
-      rest = (rest << 1U & 0xFFFFU) ^ (out != 0 ? 0x90D9U : 0U);
-    }
-  }
-  bytes.push_back(static_cast<std::uint8_t>(rest >> 8U));
-  bytes.push_back(static_cast<std::uint8_t>(rest ^ 0xFFU));
-  return bytes;
 }
 
 // Answer at once.

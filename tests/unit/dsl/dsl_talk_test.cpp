@@ -19,6 +19,7 @@
 #include "sim/masters/dsl_model/messages.hpp"
 #include "tests/unit/dsl/dsl_bench.hpp"
 #include "tests/unit/dsl/dsl_dialogue.hpp"
+#include "tests/unit/dsl/message_bytes.hpp"
 
 namespace {
 
@@ -29,7 +30,8 @@ using dsl_test::HostPort;
 using dsl_test::transactions;
 namespace address = host_address;
 namespace mask = host_bit;
-using Bytes = std::vector<std::uint8_t>;
+using dsl_test::Bytes;
+using dsl_test::with_crc;
 using Symbols = std::vector<unsigned>;
 
 constexpr unsigned kIdleSymbol = 0x10;
@@ -40,20 +42,6 @@ constexpr unsigned kInitialised = 0x1F;
 constexpr unsigned kUnreadable = 0x100;
 
 const FrameNews kLinked{.linked = true, .lost = false, .safe1 = {}, .safe2 = {}};
-
-// CRC16 as the law has it.
-Bytes with_crc(Bytes bytes) {
-  unsigned rest = 0;
-  for (const std::uint8_t byte : bytes) {
-    for (unsigned i = 8; i-- > 0;) {
-      const unsigned out = (rest >> 15U ^ byte >> i) & 1U;
-      rest = (rest << 1U & 0xFFFFU) ^ (out != 0 ? 0x90D9U : 0U);
-    }
-  }
-  bytes.push_back(static_cast<std::uint8_t>(rest >> 8U));
-  bytes.push_back(static_cast<std::uint8_t>(rest ^ 0xFFU));
-  return bytes;
-}
 
 Symbols nibbles(const Bytes& bytes) {
   Symbols all;
