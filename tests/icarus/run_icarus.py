@@ -37,7 +37,7 @@ FAULTS = [
     ("enc_crc", "feed_i & (bit_i ^ top)", "feed_i & bit_i"),
     ("biss_edge_count", "biss_c_i ? {!bus, {2{bus}}}", "biss_c_i ? {2'b01, bus}"),
     ("biss_control_frame", "slot_q + 6'd1", "slot_q + 6'd2"),
-    ("enc_posted", "rd_q + (AddrW+1)'(1)", "rd_q"),
+    ("enc_posted", "rd_q + (AddrW+1)'(fetch)", "rd_q"),
 ]
 # Sensitivity to more than what is read; '0 at a port is taken for one bit and padded with zeros.
 HARMLESS = (r".*sorry: constant selects in always_\* processes are not currently supported.*"

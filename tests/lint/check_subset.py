@@ -50,6 +50,7 @@ PATTERNS = [
     (r"\{\s*(?:<<|>>)", "streaming operator"),
     (r"[!=]=\?", "wildcard equality: use casez"),
     (r"\bparameter\s+(?:type|string|real)\b", "type, string or real parameter"),
+    (r"\bassign\s+\w+\.\w+\.\w", "assignment to a member of a member: Icarus 11 refuses it"),
     (r"\balways\b(?!_)", "plain always: use always_comb or always_ff"),
 ]
 
@@ -304,6 +305,7 @@ BAD_BODIES = [
     ("import:", "import mb4_pkg::cfg_t;"),
     ("return:", "function logic f(input logic a);\n  return a;", "endfunction"),
     ("assignment pattern", "assign y_o = '{default: 1'b0};"),
+    ("member of a member", "assign offer_o.word.stop = 1'b0;"),
     ("W packed array", "mb4_pkg::instr_t [3:0] four;"),
     ("W packed array", "state_e [1:0] states;"),
     ("W unpacked array", "mb4_pkg::instr_t four [0:3];"),

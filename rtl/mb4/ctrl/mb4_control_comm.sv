@@ -74,6 +74,7 @@ module mb4_control_comm #(
   biss_pkg::access_t      access;
   biss_pkg::access_byte_t control_byte, register_byte, rdata;
   mb4_pkg::mem_wr_t       rdata_wr_q;
+  mb4_pkg::mem_rd_t       rdata_rd;
   biss_pkg::access_end_t  control_end, register_end;
   biss_pkg::line_status_t status1, status2;
 
@@ -178,9 +179,10 @@ module mb4_control_comm #(
   // A byte is written one clock later. This keeps the memory, and the queue of the host's writes,
   // out of the long paths. The end of an access reaches the flags no earlier.
   assign rdata   = register_active ? register_byte : control_byte;
-  assign rdata_o.wr      = rdata_wr_q;
-  assign rdata_o.rd.en   = active_o || register_active;
-  assign rdata_o.rd.addr = rdata.addr;
+  assign rdata_rd.en   = active_o || register_active;
+  assign rdata_rd.addr = rdata.addr;
+  assign rdata_o.wr    = rdata_wr_q;
+  assign rdata_o.rd    = rdata_rd;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin

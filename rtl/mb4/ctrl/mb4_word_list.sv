@@ -70,6 +70,7 @@ module mb4_word_list #(
   logic        actuator;
   logic        stop;
   logic        crc_room;
+  biss_pkg::word_t word;
   logic        last;
   logic        unused;
 
@@ -132,17 +133,19 @@ module mb4_word_list #(
   // The CRC is stored only if the data leave the top byte free, with 16 bits the top two (page 26).
   assign crc_room = !(cfg_i.scdlen[5:4] == 2'b11 && (cfg_i.scdlen[3] || cfg_i.crc_last[3]));
 
-  assign offer_o.any            = any_q;
-  assign offer_o.last           = last;
-  assign offer_o.slave          = slave_q;
-  assign offer_o.word.data_last = cfg_i.scdlen;
-  assign offer_o.word.crc_on    = cfg_i.crc_on;
-  assign offer_o.word.crc_last  = cfg_i.crc_last;
-  assign offer_o.word.crc_poly  = {cfg_i.crc_poly, 1'b1};
-  assign offer_o.word.crc_start = cfg_i.crc_start;
-  assign offer_o.word.crc_store = crc_room && !nocrc_i && cfg_i.crc_on;
-  assign offer_o.word.gray      = ssi_i && cfg_i.gray_lstop;
-  assign offer_o.word.actuator  = actuator;
-  assign offer_o.word.stop      = stop;
+  assign word.data_last = cfg_i.scdlen;
+  assign word.crc_on    = cfg_i.crc_on;
+  assign word.crc_last  = cfg_i.crc_last;
+  assign word.crc_poly  = {cfg_i.crc_poly, 1'b1};
+  assign word.crc_start = cfg_i.crc_start;
+  assign word.crc_store = crc_room && !nocrc_i && cfg_i.crc_on;
+  assign word.gray      = ssi_i && cfg_i.gray_lstop;
+  assign word.actuator  = actuator;
+  assign word.stop      = stop;
+
+  assign offer_o.any   = any_q;
+  assign offer_o.last  = last;
+  assign offer_o.slave = slave_q;
+  assign offer_o.word  = word;
 
 endmodule

@@ -62,27 +62,6 @@ class Writer:
         self.described, self.root = description, description.root
         self.types, self.widths, self.tables = types, widths, tables
         self.events, self.lists, self.flags = events, lists, flags
-        # {name: {number or None: parts that must run when it changes}}, for changes by an edge of
-        # the clock and by a host pin. host() itself computes all parts without a clock, of a part
-        # with a key only the value that the key has now: the others stay marked.
-        self.by_clock, self.by_host = (defaultdict(lambda: defaultdict(set)) for _ in range(2))
-        self.readers = self.by_clock
-        self.always = [part for part in lists["events"] if part.always]
-        for part in lists["rise"]:
-            if part.bits:
-                mark(self.by_clock, part.looks, part)
-                clocked = looks([row for row in part.rows if not combinational(row)])
-                mark(self.by_host, part.looks | {(name, None) for name in part.writes}
-                     if part.key else clocked, part)
-        for part in lists["pins"] + lists["events"]:
-            mark(self.by_host, part.looks, part)
-        # A change that an edge of the clock sees sets the last flag.
-        self.core = Part([], flags + -flags % 64, 1)
-        mark(self.by_host, looks([row for name in lists.keys() - {"pins", "events"}
-                                  for part in lists[name] for row in part.rows
-                                  if not combinational(row)]), self.core)
-        mark(self.by_host, {(name, None) for name in members(description.seen)}, self.core)
-        self.moves = []
         users = defaultdict(list)
         for parts in lists.values():
             for part in parts:
@@ -92,6 +71,29 @@ class Writer:
         # Local variables that keep their value from one part to the next or from edge to edge.
         self.kept = {name for name, many in users.items()
                      if any(name in part.reads for part in many)}
+        # {name: {number or None: parts that must run when it changes}}, for changes by an edge of
+        # the clock and by a host pin. host() itself computes all parts without a clock, of a part
+        # with a key only the value that the key has now: the others stay marked. It does not know
+        # the kept local variables of rise(), so a part that writes one of them is marked too.
+        self.by_clock, self.by_host = (defaultdict(lambda: defaultdict(set)) for _ in range(2))
+        self.readers = self.by_clock
+        self.always = [part for part in lists["events"] if part.always]
+        for part in lists["rise"]:
+            if part.bits:
+                mark(self.by_clock, part.looks, part)
+                mark(self.by_host, part.looks if part.key or part.writes & self.kept else
+                     looks([row for row in part.rows if not combinational(row)]), part)
+                if part.key:
+                    mark(self.by_host, {(name, None) for name in part.writes}, part)
+        for part in lists["pins"] + lists["events"]:
+            mark(self.by_host, part.looks, part)
+        # A change that an edge of the clock sees sets the last flag.
+        self.core = Part([], flags + -flags % 64, 1)
+        mark(self.by_host, looks([row for name in lists.keys() - {"pins", "events"}
+                                  for part in lists[name] for row in part.rows
+                                  if not combinational(row)]), self.core)
+        mark(self.by_host, {(name, None) for name in members(description.seen)}, self.core)
+        self.moves = []
         self.lines = []
         self.local = {}  # {variable: the local one that stands for it now}
 

@@ -35,12 +35,16 @@ TEST(FaultParts, Kinds_AreListedOnce) {
   std::vector<std::string_view> names;
   for (const FaultType& type : fault_types()) names.push_back(type.name);
   const std::vector<std::string_view> expected = {
-      "bit-flip",        "glitch",        "stuck",        "jitter",
-      "silent",          "busy",          "wrong-crc",    "wrong-id",
-      "stuck-word",      "stuck-counter", "skipped-word", "swapped-words",
-      "wrong-crc2",      "fast-marker",   "safe-marker",  "safe2-marker",
-      "no-vsync",        "early-vsync",   "unplug",       "abort",
-      "clock-frequency", "clock-stop"};
+      "bit-flip",       "glitch",        "stuck",           "jitter",
+      "silent",         "busy",          "wrong-crc",       "wrong-id",
+      "stuck-word",     "stuck-counter", "skipped-word",    "swapped-words",
+      "wrong-crc2",     "fast-marker",   "safe-marker",     "safe2-marker",
+      "no-vsync",       "early-vsync",   "late-vsync",      "stale-safe",
+      "safe2-mismatch", "toggle2-stuck", "test2",           "error2",
+      "fix2",           "lost-nibble",   "wrong-message",   "message-nak",
+      "no-message",     "late-message",  "foreign-address", "foreign-direction",
+      "foreign-length", "unplug",        "abort",           "clock-frequency",
+      "clock-stop"};
   EXPECT_EQ(names, expected);
 }
 

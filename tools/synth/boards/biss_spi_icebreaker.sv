@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // biss_spi with one channel on an iCEBreaker (iCE40 UP5K): host on Pmod 1A (SPI, Pmod type 2), the
-// line's transceiver on Pmod 1B. The PLL makes 47.25 MHz of the board's 12 MHz, so SCLK is at most
-// 5.9 MHz. Pins and clock: biss_spi_icebreaker.pcf.
+// line's transceiver on Pmod 1B. The PLL makes 45 MHz of the board's 12 MHz, so SCLK is at most
+// 5.6 MHz. Pins and clock: biss_spi_icebreaker.pcf.
 
 module biss_spi_icebreaker (
   input  logic clk_i,      // 12 MHz
@@ -27,7 +27,7 @@ module biss_spi_icebreaker (
   SB_PLL40_PAD #(
     .FEEDBACK_PATH ("SIMPLE"),
     .DIVR          (4'd0),
-    .DIVF          (7'd62),
+    .DIVF          (7'd59),
     .DIVQ          (3'd4),
     .FILTER_RANGE  (3'd1)
   ) u_pll (

@@ -201,6 +201,18 @@ class Parts(unittest.TestCase):
         self.assertEqual(writer.by_host["x"][None], {keyed, *register, writer.core})
         self.assertEqual(writer.by_clock["x"][None], {keyed, *register, *logic})
 
+    def test_a_host_pin_marks_who_writes_a_local_variable_that_another_part_reads(self):
+        # host() computes z in a variable of its own, so t would be old when only y changes.
+        texts = ["t = vlSelf->x;", "vlSelf->z = (t & vlSelf->y);"]
+        first, second = (parts_of(groups_of(rows(text, local={"t"})), Kinds(Busy(), {}), False,
+                                  flag)[0][0] for flag, text in enumerate(texts))
+        described = Description("Vm", "m", ["clk"], ["x", "y"])
+        writer = Writer(described, {"f.t": "CData"}, {"f.t": 1}, [], {},
+                        {"pins": [], "events": [], "rise": [first, second]}, 64)
+        self.assertEqual(writer.kept, {"f.t"})
+        self.assertEqual(writer.by_host["x"][None], {first})
+        self.assertNotIn("y", writer.by_host)
+
     def test_what_an_event_starts_waits_for_it(self):
         when = {"nba_sequent__0": 0b01, "nba_comb__0": 0b10}
         found = [*rows("vlSelf->q = vlSelf->d;", "vlSelf->p = vlSelf->c;",
