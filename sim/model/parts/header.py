@@ -74,15 +74,15 @@ class Writer:
         # {name: {number or None: parts that must run when it changes}}, for changes by an edge of
         # the clock and by a host pin. host() itself computes all parts without a clock, of a part
         # with a key only the value that the key has now: the others stay marked. It does not know
-        # the kept local variables of rise(), so a part that writes one of them is marked too.
+        # the kept local variables of rise(), so a part that writes one of them is marked too, for
+        # what goes into that variable.
         self.by_clock, self.by_host = (defaultdict(lambda: defaultdict(set)) for _ in range(2))
         self.readers = self.by_clock
         self.always = [part for part in lists["events"] if part.always]
         for part in lists["rise"]:
             if part.bits:
                 mark(self.by_clock, part.looks, part)
-                mark(self.by_host, part.looks if part.key or part.writes & self.kept else
-                     looks([row for row in part.rows if not combinational(row)]), part)
+                mark(self.by_host, part.looks if part.key else looks(self.not_by_host(part)), part)
                 if part.key:
                     mark(self.by_host, {(name, None) for name in part.writes}, part)
         for part in lists["pins"] + lists["events"]:
@@ -96,6 +96,15 @@ class Writer:
         self.moves = []
         self.lines = []
         self.local = {}  # {variable: the local one that stands for it now}
+
+    def not_by_host(self, part):
+        """The statements of a part of rise() whose results host() does not make."""
+        rows, needed = [], self.kept
+        for row in reversed(part.rows):
+            if not combinational(row) or row.writes & needed:
+                rows.insert(0, row)
+                needed = needed | row.reads & self.types.keys()
+        return rows
 
     def opening(self, name, result="void"):
         """The first lines of a function that holds statements of the model."""

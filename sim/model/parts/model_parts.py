@@ -139,7 +139,9 @@ def made(described, folder, busy, count, checked):
         raise NotUnderstood(f"no rising edge of {' or '.join(described.clocks)} found")
     look_for_surprises(described, names, rise, fall)
     bits = widths(folder, prefix, bodies)
-    parts, flags = parts_of(groups_of(rise), Kinds(busy, bits), count)
+    # What goes into a function and comes out of it stays together: apart it would be kept.
+    local = {name for row in rise for name in row.reads if ".__Vfunc_" in name}
+    parts, flags = parts_of(groups_of(rise, local), Kinds(busy, bits), count)
     lists = {"rise": parts, "fall": [Part([Group(fall)])] if fall else []}
     by_clock = {name for row in rise + fall for name in row.writes}
     for function, pins in described.follow.items():
