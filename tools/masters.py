@@ -22,7 +22,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 FILE = "masters.toml"
 BUS_KINDS = {"axi4-lite": ("prefix", "clock", "reset"), "axi4-stream": ("prefix", "clock", "reset"), "wishbone": ("prefix",),
-             "clock": (), "reset": (), "interrupt": ()}
+             "spi": (), "clock": (), "reset": (), "interrupt": ()}
 LINES = ("clocked", "duplex")
 
 
@@ -130,8 +130,6 @@ class Top:
         self.buses = [Bus(Entry(f"{entry.where}.buses[{place}]", values)) for place, values in enumerate(buses)]
         generics = entry.take("generics", dict)
         self.generics = Generics(Entry(f"{entry.where}.generics", generics)) if generics is not None else None
-        if self.plain and self.generics is not None:
-            entry.wrong("generics", "a top with plain = true has none")
         entry.end()
 
     @property

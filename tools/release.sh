@@ -4,8 +4,9 @@
 #
 # Packs the committed tree as openmb4-VERSION.tar.gz with its checksum beside it; the same commit and
 # the same Yosys give the same bytes. In its folder verilog/ is plain Verilog of each top
-# (tools/synth/plain_verilog.py), ipxact/ has IP-XACT of the bus tops (tools/synth/ipxact.py) and
-# ipxact/vivado/ those with generics for Vivado (tools/synth/vivado_ip.py); docs/signoff.md says what
+# (tools/synth/plain_verilog.py), rtl/mb4/constraints/PRESET/ has the constraints of the presets
+# (tools/synth/constraints.py), ipxact/ has IP-XACT of the bus tops (tools/synth/ipxact.py) and
+# ipxact/vivado... those with generics for Vivado (tools/synth/vivado_ip.py); docs/signoff.md says what
 # the test runs have shown whose reports build/signoff.json keeps. Beside it python/ holds the sdist of the Python package, which
 # builds its library from the RTL that it carries, and the library for Arduino and PlatformIO
 # (tools/arduino.py).
@@ -43,10 +44,10 @@ mkdir -p "$folder"
 plain=$(mktemp -d)
 trap 'rm -rf "$plain"' EXIT
 added=()
-# add FOLDER SCRIPT: the files that a script of tools/synth makes in a folder of $plain go there in the archive.
+# add FOLDER SCRIPT [OPTION...]: the files that a script of tools/synth makes in a folder of $plain go there in the archive.
 add() {
   local files file
-  if ! files=$(python3 -B "tools/synth/$2" "$plain/$1") || [ -z "$files" ]; then
+  if ! files=$(python3 -B "tools/synth/$2" "$plain/$1" "${@:3}") || [ -z "$files" ]; then
     echo "release: tools/synth/$2 could not make its files" >&2
     exit 1
   fi
@@ -63,6 +64,9 @@ else
   echo "release: skipped the sign-off page: no report has been taken (tools/signoff/signoff.py take)" >&2
 fi
 add verilog plain_verilog.py
+for preset in drive single reader; do
+  add "rtl/mb4/constraints/$preset" constraints.py --features "$preset"
+done
 add ipxact ipxact.py
 add ipxact/vivado vivado_ip.py
 name=openmb4-$version

@@ -3,12 +3,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """A SoC without a CPU for the ULX3S (ECP5): one encoder, read by a PC over the board's USB port.
 
-  soc.py FOLDER [--master mb4|clb|dsl] [--bus wishbone|axi-lite] [--features PRESET] [--verilog FILE] [--baud N] [--build]
+  soc.py FOLDER [--master mb4|axi|clb|dsl] [--bus wishbone|axi-lite] [--features PRESET] [--verilog FILE] [--baud N] [--build]
 
 Writes FOLDER/gateware (Verilog, constraints, build script) and FOLDER/csr.csv. Without --build no tool runs;
 with it Yosys and nextpnr-ecp5 make the bitstream. Then `litex_server --uart --uart-port=/dev/ttyUSB0`, and for example
-`RemoteClient("csr.csv")` with read(0x3000_0100), which is 0x454E4301 (--master clb: read(0x3000_0200), 0x454E4304; dsl:
-read(0x3000_0180), 0x454E4305). LiteX 2024.12 of PyPI; it also needs requests, setuptools, packaging.
+`RemoteClient("csr.csv")` with read(0x3000_0100), which is 0x454E4301 (--master axi: read(0x3000_0040), 0x454E4302; clb:
+read(0x3000_0200), 0x454E4304; dsl: read(0x3000_0180), 0x454E4305). LiteX 2024.12 of PyPI; it also needs requests, setuptools, packaging.
 """
 
 import argparse
@@ -23,7 +23,7 @@ from litex.soc.integration.soc import SoCRegion
 from litex.soc.integration.soc_core import SoCMini
 from migen import ResetSignal
 
-from mb4_litex import BissClb, DslAxil, Mb4
+from mb4_litex import BissAxi, BissClb, DslAxil, Mb4
 
 CLK_HZ = 25_000_000   # of the board, for the bus and the core: f_MA up to 12.5 MHz, with biss_clb 3.125 MHz
 DSL_HZ = 75_000_000   # of the core of dsl_axil
@@ -32,6 +32,7 @@ ORIGIN = 0x3000_0000
 ENCODER = {
     "mb4": (Subsignal("ma1", Pins("B11")), Subsignal("sl1", Pins("C11")), Subsignal("mo1", Pins("A10")),
             Subsignal("ma2", Pins("A11")), Subsignal("sl2", Pins("A9")), Subsignal("mo2", Pins("B10"))),
+    "axi": (Subsignal("ma", Pins("B11")), Subsignal("slo", Pins("C11"))),
     "clb": (Subsignal("ma", Pins("B11")), Subsignal("sl", Pins("C11"))),
     "dsl": (Subsignal("out", Pins("B11")), Subsignal("en", Pins("A10")), Subsignal("in_", Pins("C11")))}
 IO = [("clk", 0, Pins("G2"), IOStandard("LVCMOS33")),
@@ -51,6 +52,8 @@ class Soc(SoCMini):
         self.add_uartbone(baudrate=baud)
         if master == "mb4":
             module = Mb4(platform, platform.request("encoder"), bus_standard, features, verilog=verilog)
+        elif master == "axi":
+            module = BissAxi(platform, platform.request("encoder"), extras=1, verilog=verilog)   # the page
         elif master == "clb":
             module = BissClb(platform, platform.request("encoder"), verilog=verilog)
         else:

@@ -14,6 +14,8 @@
 // that pin. A cell of another FPGA family is an unknown module in synthesis.
 // Cells: SB_IO (Lattice FPGA-TN-02026), IDDRX1F (Lattice FPGA-TN-02035), IDDR (Xilinx UG471).
 
+`include "enc_sync.svh"
+
 module biss_sl_capture #(
   parameter logic [1:0] SlCells = biss_pkg::SL_FLOPS
 ) (
@@ -24,7 +26,9 @@ module biss_sl_capture #(
   output logic neg_o
 );
 
+  `ENC_SYNC_FLOPS
   logic pos1_q;
+  `ENC_SYNC_FLOPS
   logic neg1_q;
 
   if (SlCells == biss_pkg::SL_ICE40) begin : gen_ice40
@@ -68,7 +72,9 @@ module biss_sl_capture #(
     assign pos_o = pos1_q;
     assign neg_o = neg1_q;
   end else begin : gen_second
+    `ENC_SYNC_FLOPS
     logic pos2_q;
+    `ENC_SYNC_FLOPS
     logic neg2_q;
 
     always_ff @(posedge clk_i or negedge rst_ni) begin

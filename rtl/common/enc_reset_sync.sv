@@ -7,12 +7,15 @@
 // asserted.
 // Constraint: false path from rst_ni to the asynchronous clear of both flops.
 
+`include "enc_sync.svh"
+
 module enc_reset_sync (
   input  logic clk_i,
   input  logic rst_ni,
   output logic rst_sync_no
 );
 
+  `ENC_SYNC_FLOPS
   logic [1:0] sync_q;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin

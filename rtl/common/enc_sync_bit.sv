@@ -8,6 +8,8 @@
 // arrive in different clocks. A level shorter than one clock may be missed.
 // Constraint: false path (or maximum delay of one clk_i period) to the first flop.
 
+`include "enc_sync.svh"
+
 module enc_sync_bit #(
   parameter logic ResetValue = 1'b0
 ) (
@@ -17,6 +19,7 @@ module enc_sync_bit #(
   output logic data_o
 );
 
+  `ENC_SYNC_FLOPS
   logic [1:0] sync_q;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin

@@ -44,8 +44,6 @@ WRONG = (
      "toy: tops.toy.buses[0]: kind: 'can' is none of axi4-lite"),
     ('[toy]\nwhat = "a"\nlist = "toy.f"\ntops.toy = {buses = [{name = "a", kind = "wishbone"}]}\n',
      "toy: tops.toy.buses[0]: the key 'prefix' is missing"),
-    ('[toy]\nwhat = "a"\nlist = "toy.f"\ntops.toy = {plain = true, generics = {}}\n',
-     "toy: tops.toy: generics: a top with plain = true has none"),
     ('[toy]\nwhat = "a"\nlist = "toy.f"\ngates.one = {top = "none"}\n', "toy: gates.one.top: the list has no module none"),
     ('[toy]\nwhat = "a"\nlist = "toy.f"\nmeasured.one = {maker = "toy.f", programs = []}\n',
      "toy: measured.one: programs: names no program"),

@@ -34,7 +34,9 @@ WISHBONE_OUT = "DAT_O ACK_O ERR_O STALL_O".split()
 STREAM_IN, STREAM_OUT = ["ACLK", "ARESETn", "TREADY"], ["TVALID", "TDATA", "TLAST", "TUSER"]
 # Inputs and outputs of the module for each kind of bus in masters.toml.
 PINS = {"axi4-lite": (AXI_IN, AXI_OUT), "axi4-stream": (STREAM_IN, STREAM_OUT), "wishbone": (WISHBONE_IN, WISHBONE_OUT),
-        "clock": (["CLK"], []), "reset": (["RST"], []), "interrupt": ([], ["INTERRUPT"])}
+        "spi": (["SCK_I", "SS_I", "IO0_I"], ["IO1_O"]), "clock": (["CLK"], []), "reset": (["RST"], []), "interrupt": ([], ["INTERRUPT"])}
+# Of a slave: Vivado's interface spi.
+SPI = {"SCK_I": "sclk_i", "SS_I": "cs_ni", "IO0_I": "mosi_i", "IO1_O": "miso_o"}
 TOPS = project.tops("buses")
 
 
@@ -71,6 +73,8 @@ def vhdl_generics(top):
 
 def physical(bus, logical):
     """The port behind a pin of a bus, in small letters."""
+    if bus.kind == "spi":
+        return SPI.get(logical)
     if bus.prefix is None:
         return bus.name.lower()
     named = {"ACLK": bus.clock, "ARESETn": bus.reset}
@@ -149,6 +153,8 @@ def bus_findings(top, root, expected):
         clocked = [other for other in top.buses if other.clock == bus.name]
         right = {"ASSOCIATED_BUSIF": ":".join(other.name for other in clocked),
                  "ASSOCIATED_RESET": ":".join(dict.fromkeys(other.reset for other in clocked))}
+        if not clocked:   # SPI has its own
+            right = {"ASSOCIATED_RESET": next((other.name for other in top.buses if other.kind == "reset"), "")}
         if bus.kind == "clock" and said != right:
             found.append(f"the clock belongs to {said}")
     return found
@@ -291,7 +297,7 @@ def vivado_wrong(top, folder, checked, out):
         if not checked.validate(etree.fromstring(good.encode())):
             wrong.append(f"{top.name} for Vivado: the file does not fit its schema")
     pin = next(name for name in ports if any(name.lower() == physical(bus, PINS[bus.kind][0][-1]) for bus in top.buses
-                                             if bus.prefix))
+                                             if bus.prefix or bus.kind == "spi"))
     user = next(name for name in vhdl_generics(top) if name not in top.generics.formulas)
     planted_here = [(f">{list(ports)[-1]}<", ">x<"), (f">{user}<", ">OTHER<"), (f"{top.name}.sv", f"{top.name}s.sv"),
                     (f">{pin}<", ">other<")]

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The openmb4 authors
 # SPDX-License-Identifier: Apache-2.0
-"""The SoCs of examples/litex, the chip on both buses, biss_clb and dsl_axil, made by LiteX without a network and run in Icarus
+"""The SoCs of examples/litex, the chip on both buses, biss_axi, biss_clb and dsl_axil, made by LiteX without a network and run in Icarus
 around the plain Verilog; Yosys reads them around the RTL. Planted faults are reported.
 
   litex_test.py PYTHON FOLDER    PYTHON has LiteX; FOLDER is for what the tools leave
@@ -24,15 +24,19 @@ import project  # noqa: E402
 # Name: master, bus, top, preset or None, bench, identity.
 SOCS = {"wishbone": ("mb4", "wishbone", "mb4_wb", "single", "litex_bench.v", 0x454E4301),
         "axi-lite": ("mb4", "axi-lite", "mb4_axil", "reader", "litex_bench.v", 0x454E4301),
+        "axi": ("axi", "axi-lite", "biss_axi", None, "litex_axi_bench.v", 0x454E4302),
         "clb": ("clb", "axi-lite", "biss_clb", None, "litex_clb_bench.v", 0x454E4304),
         "dsl": ("dsl", "axi-lite", "dsl_axil", None, "litex_dsl_bench.v", 0x454E4305)}
-FEATURES = {"clb": 1,      # the watchdog
+FEATURES = {"axi": 0x10201,   # one channel, a request clears the valid flag, the page
+            "clb": 1,      # the watchdog
             "dsl": 0x126}  # one line, tracking, strict code, recovery
+# Of the plain Verilog, as soc.py has them for the RTL.
+PARAMETERS = {"axi": {"EXTRAS": 1}}
 # Of the device, as black boxes.
 CELLS = "read_verilog -lib +/ecp5/cells_sim.v +/ecp5/cells_bb.v"
 # A port with another name, and data with a wrong bit.
-FAULTS = (("name of a port", r"\b(sl1?|dsl_in)_i\b", "sl3_i"),
-          ("bit of the data", r"(?m)^(\s*assign (?:wb_dat_o|s_axi_rdata) = )(.*);$", r"\1 (\2) ^ 32'h10;"))
+FAULTS = (("name of a port", r"\b(?:sl1?_i|dsl_in_i|slo)\b", "sl3_i"),
+          ("bit of the data", r"(?mi)^(\s*assign (?:wb_dat_o|s_axi_rdata) = )(.*);$", r"\1 (\2) ^ 32'h10;"))
 
 
 def soc(python, folder, name, *arguments):
@@ -78,7 +82,7 @@ def main():
     for name, (_, _, top, preset, _, _) in SOCS.items():
         place = folder / name
         place.mkdir(parents=True, exist_ok=True)
-        module = plain_verilog.write(top, place, **({"preset": preset} if preset else {}))
+        module = plain_verilog.write(top, place, parameters=PARAMETERS.get(name), **({"preset": preset} if preset else {}))
         origin, status = soc(python, place / "plain", name, "--verilog", module, "--baud", "5000000")  # Icarus is slow
         text = run(name, place / "plain", module, origin, status)
         if not text.endswith("good\n"):

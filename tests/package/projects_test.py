@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The openmb4 authors
 # SPDX-License-Identifier: Apache-2.0
 """The project scripts for Vivado and Quartus read a release archive: run in the Tcl of Yosys with stand-ins for the
-vendors' commands, for each top and preset. Every file they name exists, in the order of rtl/mb4/mb4.f, and wrong
-arguments are refused.
+vendors' commands, for each top with constraints, with each preset or with parameters. Every file they name exists, in the
+order of the list of its room, and wrong arguments are refused.
 
   projects_test.py FOLDER    FOLDER is for what the tools leave
 
@@ -40,26 +40,38 @@ def run(tool, arguments, folder):
     return status, [[call[0], *(call[1].split("\x01") if len(call) > 1 else [])] for call in calls], text
 
 
-def findings(tool, top, preset, calls, release):
-    rtl = [str(release / path.relative_to(ROOT)) for path in project.rtl_files()]
+def designs():
+    """(top, third argument, {parameter: value}) of each run."""
+    for top, one in constraints.CLOCKED.items():
+        if one.master.presets:
+            for preset, features in project.presets().items():
+                yield top, preset, {"Features": features}
+        else:
+            yield top, "default", {}
+    yield "biss_axi", "BISS_CHANNEL_WIDTH=4,ALIGN_LATCH=1'b1", {"BISS_CHANNEL_WIDTH": 4, "ALIGN_LATCH": "1'b1"}
+
+
+def findings(tool, top, chosen, parameters, calls, release):
+    room = constraints.CLOCKED[top].master.list.parent
+    rtl = [str(release / path.relative_to(ROOT)) for path in project.listed(constraints.CLOCKED[top].master.list)]
     ending = {"vivado": "Vivado", "quartus": "Quartus"}[tool]
-    place = release / "rtl/mb4/constraints" / ("" if preset == "full" else preset)
-    file = str(place / constraints.FILES[ending].format(top))
-    features = project.presets()[preset]
+    preset = chosen if "Features" in parameters and chosen != "full" else ""
+    file = str(release / room.relative_to(ROOT) / "constraints" / preset / constraints.FILES[ending].format(top))
     if tool == "vivado":
         found = {"rtl": next(call[2] for call in calls if call[0] == "add_files" and call[1] == "-norecurse").split(),
                  "constraints": [call[4] for call in calls if call[:2] == ["add_files", "-fileset"]],
-                 "features": [call[2] for call in calls if call[:2] == ["set_property", "generic"]],
+                 "parameters": [call[2] for call in calls if call[:2] == ["set_property", "generic"]],
                  "top": [call[2] for call in calls if call[:2] == ["set_property", "top"]]}
-        features = f"Features=32'd{features}"
+        values = [" ".join(f"{name}={value}".replace("Features=", "Features=32'd") for name, value in parameters.items())]
     else:
         named = [call[2:] for call in calls if call[0] == "set_global_assignment"]
         found = {"rtl": [value for name, value in named if name == "SYSTEMVERILOG_FILE"],
                  "constraints": [value for name, value in named if name == "SDC_FILE"],
-                 "features": [call[3] for call in calls if call[:3] == ["set_parameter", "-name", "Features"]],
+                 "parameters": [tuple(call[2:]) for call in calls if call[:2] == ["set_parameter", "-name"]],
                  "top": [value for name, value in named if name == "TOP_LEVEL_ENTITY"]}
-    expected = {"rtl": rtl, "constraints": [file], "features": [str(features)], "top": [top]}
-    wrong = [f"{tool}, {top}, {preset}: {what}: {found[what]}" for what, value in expected.items() if found[what] != value]
+        values = [(name, str(value)) for name, value in parameters.items()]
+    expected = {"rtl": rtl, "constraints": [file], "parameters": values, "top": [top]}
+    wrong = [f"{tool}, {top}, {chosen}: {what}: {found[what]}" for what, value in expected.items() if found[what] != value]
     return wrong + [f"{tool}: {name} is no file" for name in found["rtl"] + found["constraints"]
                     if not Path(name).is_file()]
 
@@ -72,28 +84,35 @@ def main():
     folder.mkdir(parents=True, exist_ok=True)
     archive = folder / "openmb4-9.9.9.tar.gz"
     with tarfile.open(archive, "w:gz") as tar:
+        # Of presets, as tools/release.sh adds them.
+        for preset in list(project.presets())[1:]:
+            made = folder / "constraints" / preset
+            status, text = project.run([sys.executable, "-B", ROOT / "tools/synth/constraints.py", made, "--features", preset])
+            if status != 0:
+                raise SystemExit(text)
+            tar.add(made, f"openmb4-9.9.9/rtl/mb4/constraints/{preset}")
         for name in project.tracked():
             if re.match(r"rtl/|regmap/", name) and (ROOT / name).is_file():
                 tar.add(ROOT / name, f"openmb4-9.9.9/{name}")
     found = []
     for tool, device in DEVICE.items():
-        for preset in project.presets():
-            for top in constraints.TOPS:
-                place = folder / tool / preset / top
-                place.mkdir(parents=True, exist_ok=True)
-                status, calls, text = run(tool, [archive, top, preset, *device, place], place)
-                if status != 0:
-                    found.append(f"{tool}, {top}, {preset}: {text[-1000:]}")
-                else:
-                    found += findings(tool, top, preset, calls, place / "openmb4-9.9.9")
+        for number, (top, chosen, parameters) in enumerate(designs()):
+            place = folder / tool / str(number)
+            place.mkdir(parents=True, exist_ok=True)
+            status, calls, text = run(tool, [archive, top, chosen, *device, place], place)
+            if status != 0:
+                found.append(f"{tool}, {top}, {chosen}: {text[-1000:]}")
+            else:
+                found += findings(tool, top, chosen, parameters, calls, place / "openmb4-9.9.9")
         for what, arguments in {"a preset": [archive, "mb4_core", "small", *device, folder],
+                                "a preset of a top without": [archive, "biss_spi", "single", *device, folder],
+                                "parameters": [archive, "biss_axi", "EXTRAS 1", *device, folder],
                                 "a top": [archive, "mb4_chip", "full", *device, folder],
                                 "an archive": [folder / "none.tar.gz", "mb4_core", "full", *device, folder],
                                 "a number of arguments": [archive, "mb4_core"]}.items():
             if run(tool, arguments, folder)[0] == 0:
                 found.append(f"{tool}: wrong {what} is not refused")
-    project.finish(found, f"{len(DEVICE)} scripts, {len(project.presets())} presets, {len(constraints.TOPS)} tops: each "
-                          "file exists, wrong arguments are refused")
+    project.finish(found, f"{len(DEVICE)} scripts, {len(list(designs()))} designs: each file exists, wrong arguments are refused")
 
 
 if __name__ == "__main__":

@@ -18,6 +18,7 @@ from programs import ROOT
 
 sys.path.insert(0, str(ROOT / "tools" / "synth"))
 
+import constraints  # noqa: E402
 import project  # noqa: E402
 
 SKIPPED = 77
@@ -109,6 +110,8 @@ def main():
             packed = {member.name for member in tar.getmembers() if not member.isdir()}
             plain = tar.extractfile(f"openmb4-{version}/verilog/mb4_chip.v").read().decode()
         tracked |= {f"verilog/{top}.v" for top in project.tops("plain")}
+        tracked |= {f"rtl/mb4/constraints/{preset}/{name.format(top)}" for preset in list(project.presets())[1:]
+                    for top in constraints.TOPS for name in constraints.FILES.values()}
         tracked |= {f"ipxact/{top}.xml" for top in project.tops("buses")}
         for place, top in enumerate(project.tops("generics")):
             vivado = f"ipxact/vivado{f'-{top}' if place else ''}"
@@ -121,6 +124,7 @@ def main():
         assert sdists[0] == sdists[1], "two sdists of one commit differ"
         check_sdist(Path(folder), version)
         # tests/icarus shows that the plain file works.
+        assert 'ASYNC_REG = "TRUE"' in plain and "src =" not in plain, plain[:500]
         assert "`timescale" in plain and len(re.findall(r"^module ", plain, re.M)) == 1, plain[:500]
         (clone / "README.md").write_text("changed")
         done = subprocess.run([script, Path(folder) / "c"], capture_output=True, text=True,

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The openmb4 authors
 # SPDX-License-Identifier: Apache-2.0
-"""IP-XACT (IEEE 1685-2014) of the tops with a bus of words: bus interfaces, ports, parameters, files, and
+"""IP-XACT (IEEE 1685-2014) of the tops with a bus of words or SPI: bus interfaces, ports, parameters, files, and
 the registers of their maps.
 
   ipxact.py FOLDER   writes FOLDER/TOP.xml. A release has them in its folder ipxact/: files are named
@@ -47,6 +47,8 @@ WISHBONE_NAMES = ("CLK_I", "RST_I", "CYC_I", "STB_I", "WE_I", "ADR_I", "DAT_I", 
 BUSES = {"axi4-lite": ("slave", ("amba.com", "AMBA4", "AXI4-Lite", "r0p0_0"), "AXI4-Lite_rtl", AXI_NAMES),
          "axi4-stream": ("master", ("amba.com", "AMBA4", "AXI4Stream", "r0p0_1"), "AXI4Stream_rtl", STREAM_NAMES),
          "wishbone": ("slave", ("opencores.org", "interface", "wishbone", "B4"), "wishbone_rtl", WISHBONE_NAMES)}
+# An SPI slave: its port behind each logical name, with the definition that Vivado has for it.
+SPI = {"SCK_I": "sclk_i", "SS_I": "cs_ni", "IO0_I": "mosi_i", "IO1_O": "miso_o"}
 # A port of its own: role, logical name. The definitions are those that Vivado has for clocks, resets, interrupts.
 SIGNALS = {"clock": ("slave", "CLK"), "reset": ("slave", "RST"), "interrupt": ("master", "INTERRUPT")}
 
@@ -56,6 +58,8 @@ def bus_of(bus):
     if bus.kind in SIGNALS:
         role, logical = SIGNALS[bus.kind]
         return Bus(bus.name, role, ("xilinx.com", "signal", bus.kind, "1.0"), f"{bus.kind}_rtl", {logical: bus.name}, bus.values)
+    if bus.kind == "spi":
+        return Bus(bus.name, "slave", ("xilinx.com", "interface", "spi", "1.0"), "spi_rtl", SPI, bus.values)
     role, kind, abstraction, logical = BUSES[bus.kind]
     clocks = {"ACLK": bus.clock, "ARESETn": bus.reset} if bus.clock else {}
     # The names of a port are as large as its prefix.

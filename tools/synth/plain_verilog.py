@@ -5,8 +5,10 @@
 
   plain_verilog.py FOLDER [PRESET]   writes FOLDER/TOP.v for each top (mb4_core.v ...): one module each, made
                                      by Yosys from the RTL; with the default parameters, or those of a preset
+  plain_verilog.py FOLDER --top TOP [--set NAME=NUMBER]...   writes that of one top, with these parameters
 """
 
+import re
 import sys
 from pathlib import Path
 
@@ -24,6 +26,10 @@ HEAD = """// SPDX-FileCopyrightText: 2026 The openmb4 authors
 `timescale 1ns/1ps
 
 """
+# What tools ask of synchronisers stays; Yosys' own attributes go.
+KEPT = re.findall(r"(\w+) = ", (project.INCLUDE / "enc_sync.svh").read_text(encoding="utf-8").partition("`define")[2])
+OTHERS = rf"\(\* \\?(?!(?:{'|'.join(KEPT)}) )[^\n]*?\*\)"
+ATTRIBUTE = re.compile(rf"^ *{OTHERS}\n|{OTHERS} ?", re.M)
 
 
 def write(top, folder, files=None, parameters=None, preset="full"):
@@ -31,6 +37,8 @@ def write(top, folder, files=None, parameters=None, preset="full"):
     `parameters` are integers."""
     path = folder / f"{top}.v"
     values, features = dict(parameters or {}), ""
+    if values and preset == "full":
+        features = ", ".join(f"{name} = {value}" for name, value in values.items()) + ", "
     if preset != "full":
         values["Features"] = project.presets()[preset]
         features = f"preset {preset}, "
@@ -38,24 +46,33 @@ def write(top, folder, files=None, parameters=None, preset="full"):
     status, text = yosys.execute(
         yosys.read(project.files_of(top) if files is None else files) + yosys.choose(top, values) + [f"hierarchy -check -top {top}", "proc",
                              "flatten", "opt_expr", "opt_clean", "check -assert",
-                             *named, f"write_verilog -noattr {path}"], folder, top)
+                             *named, f"write_verilog {path}"], folder, top)
     if status != 0:
         raise SystemExit(f"{top}: {text}")
     head = HEAD.format(top=top, features=features, source=project.rtl_modules()[top].relative_to(project.ROOT))
-    path.write_text(head + path.read_text(encoding="utf-8"), encoding="utf-8")
+    path.write_text(head + ATTRIBUTE.sub("", path.read_text(encoding="utf-8")), encoding="utf-8")
     (folder / f"{top}.ys").unlink()
     return path
+
+
+def setting(text):
+    name, _, value = text.partition("=")
+    return name, int(value, 0)
 
 
 def main():
     parser = project.Arguments(__doc__)
     parser.add_argument("folder", type=parser.folder)
     parser.add_argument("preset", nargs="?", default="full", choices=project.presets())
+    parser.add_argument("--top", choices=TOPS)
+    parser.add_argument("--set", type=setting, action="append", default=[], metavar="NAME=NUMBER")
     arguments = parser.parse_args()
-    for top in TOPS:
+    if arguments.set and not arguments.top:
+        parser.error("--set goes with --top")
+    for top in [arguments.top] if arguments.top else TOPS:
         if arguments.preset != "full" and not TOPS[top].master.presets:
             continue
-        print(write(top, arguments.folder, preset=arguments.preset))
+        print(write(top, arguments.folder, parameters=dict(arguments.set), preset=arguments.preset))
 
 
 if __name__ == "__main__":

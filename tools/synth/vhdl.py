@@ -3,8 +3,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """VHDL for each top: a component and an instance, from the ports of the RTL.
 
-  vhdl.py           of a master's tops with plain = true in masters.toml: rtl/ROOM/vhdl/ROOM_components.vhd and
-                    TOP_example.vhd; of a top with generics: TOP_component.vhd and TOP_example.vhd
+  vhdl.py           of a top with generics in masters.toml: rtl/ROOM/vhdl/TOP_component.vhd and TOP_example.vhd; of a master's
+                    others with plain = true: ROOM_components.vhd and TOP_example.vhd
   vhdl.py --check   they are what it would write
 """
 
@@ -58,7 +58,8 @@ end architecture;
 """
 
 GENERIC_COMPONENT = HEAD + """-- {top} as a VHDL component, made by tools/synth/vhdl.py: do not edit. The module behind it is
--- {source}, for tools that read both languages.{derived}
+-- {source}, for tools that read both languages. With the default generics it is the
+-- plain Verilog of a release too (verilog/{top}.v).{derived}
 -- Clock, reset and misuse: the header of {source}.
 
 library ieee;
@@ -166,7 +167,7 @@ def plain_texts(master):
     folder = master.list.parent / "vhdl"
     room = master.list.parent.name
     with tempfile.TemporaryDirectory() as place:
-        for top in (top for top, one in master.tops.items() if one.plain):
+        for top in (top for top, one in master.tops.items() if one.plain and one.generics is None):
             ports = verilator_ports.module_ports(top, Path(place) / top)
             said = comments(top)
             components.append(f"\n  component {top}\n    port (\n{lines(ports, said, ' ' * 6)}\n"

@@ -27,7 +27,7 @@ HEAD = """<?xml version="1.0" encoding="UTF-8"?>
 <!-- SPDX-License-Identifier: Apache-2.0 -->
 """
 # Vivado's definitions of the buses that have others in ipxact.BUSES.
-KINDS = {"axi4-lite": ("interface", "aximm"), "axi4-stream": ("interface", "axis")}
+KINDS = {"axi4-lite": ("interface", "aximm"), "axi4-stream": ("interface", "axis"), "spi": ("interface", "spi")}
 
 
 def add(parent, element_name, text=None, /, **attributes):

@@ -184,14 +184,18 @@ Result<std::uint32_t> features(Port& port) {
   return id == regs::kResetId ? value : 0;
 }
 
-// The channel's word of the last single-point request, as T, with its flags: kNoData, kSlaveError,
-// kCrc. The map does not show nE and nW. CALCULATED_CRC is that of the position and the flags as
-// they came, and each of the four pairs has a CRC of its own, so it tells which they were.
-// Polynomial and start are those of Page::set_crc(). At most ten accesses.
-template <typename T, typename Port>
-Result<Reading<T>> read_position(Port& port, unsigned channel) {
-  constexpr unsigned kPairs = 4;
-  std::uint32_t valid = 0, low = 0, high = 0, bits = 0, calculated = 0, polynomial = 0, start = 0;
+// What the registers say of a channel's word of the last single-point request.
+struct SinglePoint {
+  std::uint64_t word = 0;
+  std::uint32_t bits = 0;
+  std::uint32_t calculated = 0;  // CALCULATED_CRC
+  std::uint32_t polynomial = 0, start = 0;
+};
+
+// Reads them: kNoData without a word. At most ten accesses.
+template <typename Port>
+Result<SinglePoint> read_single_point(Port& port, unsigned channel) {
+  std::uint32_t valid = 0, low = 0, high = 0;
   if (channel >= regs::kChannels) return Error::kChannel;
   if (!port.write(regs::kAddrChannelIndex, channel) ||
       !port.read(regs::kAddrSinglePointValid, valid)) {
@@ -201,30 +205,40 @@ Result<Reading<T>> read_position(Port& port, unsigned channel) {
   const Result<std::uint32_t> has = features(port);
   const bool wide = has.ok() && regs::HAS_WIDE::get(*has) != 0;
   const bool any_crc = has.ok() && regs::HAS_ANY_CRC::get(*has) != 0;
+  SinglePoint point;
   if (!has.ok() || !port.read(regs::kAddrSinglePointData, low) ||
       (wide && !port.read(regs::kAddrPositionHigh, high)) ||
-      !port.read(regs::kAddrPositionBits, bits) ||
-      !port.read(regs::kAddrCalculatedCrc, calculated) ||
-      (any_crc && (!port.read(regs::kAddrCrcPolynomial, polynomial) ||
-                   !port.read(regs::kAddrCrcStart, start)))) {
+      !port.read(regs::kAddrPositionBits, point.bits) ||
+      !port.read(regs::kAddrCalculatedCrc, point.calculated) ||
+      (any_crc && (!port.read(regs::kAddrCrcPolynomial, point.polynomial) ||
+                   !port.read(regs::kAddrCrcStart, point.start)))) {
     return Error::kBus;
   }
   const std::uint32_t most = wide ? 64U : 32U;
-  bits = bits == 0 ? 32U : bits > most ? most : bits;
-  polynomial = polynomial < 2U ? 0x43U : polynomial;
-  const std::uint64_t word = std::uint64_t{high} << 32U | low;
-  enc::CrcShift of_position(polynomial, static_cast<std::uint16_t>(start));
-  for (std::uint32_t bit = bits; bit > 0; --bit) {
-    of_position.shift(static_cast<unsigned>(word >> (bit - 1U) & 1U));
+  point.bits = point.bits == 0 ? 32U : point.bits > most ? most : point.bits;
+  point.polynomial = point.polynomial < 2U ? 0x43U : point.polynomial;
+  point.word = std::uint64_t{high} << 32U | low;
+  return point;
+}
+
+// The flags of a word: kSlaveError, kCrc. The map does not show nE and nW. CALCULATED_CRC is that
+// of the position and the flags as they came, and each of the four pairs has a CRC of its own, so
+// it tells which they were. Polynomial and start are those of Page::set_crc().
+template <typename T>
+Result<Reading<T>> with_flags(const SinglePoint& point) {
+  constexpr unsigned kPairs = 4;
+  enc::CrcShift of_position(point.polynomial, static_cast<std::uint16_t>(point.start));
+  for (std::uint32_t bit = point.bits; bit > 0; --bit) {
+    of_position.shift(static_cast<unsigned>(point.word >> (bit - 1U) & 1U));
   }
-  const std::uint32_t mask = (std::uint32_t{1} << enc::crc_width_bits(polynomial)) - 1U;
-  Reading<T> reading(static_cast<T>(word));
+  const std::uint32_t mask = (std::uint32_t{1} << enc::crc_width_bits(point.polynomial)) - 1U;
+  Reading<T> reading(static_cast<T>(point.word));
   bool fits = false;
   for (unsigned pair = 0; pair < kPairs; ++pair) {
     enc::CrcShift crc = of_position;
     crc.shift(pair >> 1U);
     crc.shift(pair & 1U);
-    if ((~std::uint32_t{crc.value()} & mask) == (calculated & mask)) {
+    if ((~std::uint32_t{crc.value()} & mask) == (point.calculated & mask)) {
       // A CRC of one bit fits several: then the worst of them counts.
       reading.slave_error = reading.slave_error || (pair & 2U) == 0;
       reading.slave_warning = reading.slave_warning || (pair & 1U) == 0;
@@ -233,6 +247,14 @@ Result<Reading<T>> read_position(Port& port, unsigned channel) {
   }
   if (!fits) return Error::kCrc;
   return {reading, reading.slave_error ? Error::kSlaveError : Error::kNone};
+}
+
+// The channel's word of the last single-point request, as T, with its flags.
+template <typename T, typename Port>
+Result<Reading<T>> read_position(Port& port, unsigned channel) {
+  const Result<SinglePoint> point = read_single_point(port, channel);
+  if (!point.ok()) return point.error();
+  return with_flags<T>(*point);
 }
 
 // The clock is polled at most so often, so one that stands still cannot block a call for ever.

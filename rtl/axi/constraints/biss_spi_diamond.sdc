@@ -8,6 +8,9 @@
 set host_period 10.0
 create_clock -name host -period $host_period [get_ports clk_i]
 
+# SPI: MISO is a flop of clk_i. What its way to the pin takes is taken from the margin of the host (docs/axi.md).
+set_max_delay -from [get_clocks host] -to [get_ports miso_o] $host_period
+
 # SLO, `ext_sample_clk_i`, `sample_en_i` of `biss_spi`
 set_false_path -from [get_ports {slo_i* ext_sample_clk_i sample_en_i}] -to [get_clocks host]
 

@@ -2,7 +2,8 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
 -- biss_axi as a VHDL component, made by tools/synth/vhdl.py: do not edit. The module behind it is
--- rtl/axi/biss_axi.sv, for tools that read both languages. A default cannot follow another generic
+-- rtl/axi/biss_axi.sv, for tools that read both languages. With the default generics it is the
+-- plain Verilog of a release too (verilog/biss_axi.v). A default cannot follow another generic
 -- here: with other parameters set S_AXIS_TDATA_WIDTH and S_AXIS_TUSER_WIDTH too, to what the formula
 -- beside each of them gives. Another width stops the elaboration, and the error names the right one.
 -- Clock, reset and misuse: the header of rtl/axi/biss_axi.sv.

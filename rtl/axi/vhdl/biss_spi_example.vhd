@@ -6,7 +6,7 @@
 
 library ieee;
 use ieee.std_logic_1164.all;
-use work.axi_components.all;
+use work.biss_spi_component.all;
 
 entity biss_spi_example is
   port (
@@ -17,8 +17,8 @@ entity biss_spi_example is
     mosi_i           : in  std_logic;
     miso_o           : out std_logic;
     miso_oe_o        : out std_logic;
-    ma_o             : out std_logic;
-    slo_i            : in  std_logic;
+    ma_o             : out std_logic_vector(1 downto 0);
+    slo_i            : in  std_logic_vector(1 downto 0);
     ext_sample_clk_i : in  std_logic;
     sample_clk_o     : out std_logic;
     sample_en_i      : in  std_logic;
@@ -31,6 +31,9 @@ end entity;
 architecture rtl of biss_spi_example is
 begin
   u_biss_spi : biss_spi
+    generic map (
+      BISS_CHANNEL_WIDTH => 2
+    )
     port map (
       clk_i            => clk_i,
       rst_ni           => rst_ni,

@@ -9,6 +9,8 @@ set core_period 50.0
 create_clock -name core -period $core_period [get_ports clk_i]
 set host_period 20.0
 create_clock -name host -period $host_period [get_ports sclk_i]
+set frame_period 160.0
+create_clock -name frame -period $frame_period [get_ports cs_ni]
 
 # SPI mode 0. MOSI is stable 7.5 ns before the rising edge of SCLK (I205) and 7.5 ns after it (I206). MISO changes with
 # the falling edge and is taken with the next rising one; the host needs host_setup before it.
@@ -93,8 +95,8 @@ set_false_path -from [get_ports {rst_ni}] -to [get_clocks core]
 # NRES
 set_false_path -from [get_ports {rst_ni}] -to [get_clocks host]
 
-# NCS
-set_false_path -from [get_ports {cs_ni}] -to [get_clocks host]
+# NRES
+set_false_path -from [get_ports {rst_ni}] -to [get_clocks frame]
 
 # NCS
-set_false_path -from [get_registers {*u_spi|open_q*}] -to [get_clocks host]
+set_false_path -from [get_clocks frame] -to [get_clocks host]

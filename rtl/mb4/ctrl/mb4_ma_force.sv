@@ -13,6 +13,8 @@
 // Misuse: none.
 // Datasheet: page 33, Tables 50..53; CHSEL: page 27, Table 23.
 
+`include "enc_sync.svh"
+
 module mb4_ma_force #(
   parameter bit Force = 1'b1
 ) (
@@ -30,7 +32,9 @@ module mb4_ma_force #(
   output logic       any_o       // force_o, one clock later: a line is forced
 );
 
+  `ENC_SYNC_FLOPS
   logic [5:0] meta_q;
+  `ENC_SYNC_FLOPS
   logic [5:0] sync_q;
   logic [5:0] last_q;
   logic [5:0] held_q;

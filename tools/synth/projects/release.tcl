@@ -4,7 +4,8 @@
 # What vivado.tcl and quartus.tcl know of a release archive.
 
 namespace eval openmb4 {
-  variable tops {mb4_core mb4_axil mb4_wb}
+  # Each top and the room of its RTL; those of mb4 have presets, the others parameters.
+  variable rooms {mb4_core mb4 mb4_axil mb4 mb4_wb mb4 biss_axi axi biss_spi axi biss_clb clb biss_pru pru dsl_axil dsl}
   variable presets {full drive single reader}
 
   # Unpacks openmb4-VERSION.tar.gz into a folder; returns the release's own folder there.
@@ -35,8 +36,14 @@ namespace eval openmb4 {
     return $files
   }
 
-  proc rtl {release} {
-    return [listed [file join $release rtl mb4 mb4.f]]
+  proc room {top} {
+    variable rooms
+    return [dict get $rooms $top]
+  }
+
+  proc rtl {release top} {
+    set room [room $top]
+    return [listed [file join $release rtl $room $room.f]]
   }
 
   # The word FEATURES of a preset, as a number.
@@ -51,21 +58,42 @@ namespace eval openmb4 {
     return [expr {$value}]
   }
 
-  # The constraints of a top with a preset; the file's name is TOP and this ending.
-  proc constraints {release top preset ending} {
-    set folder [file join $release rtl mb4 constraints]
-    if {$preset ne "full"} {
-      set folder [file join $folder $preset]
+  # Names and values of the parameters that a preset stands for, or that NAME=VALUE,... says.
+  proc parameters {release top values} {
+    if {[room $top] eq "mb4"} {
+      return [list Features [features $release $values]]
+    }
+    set found {}
+    if {$values ne "default"} {
+      foreach setting [split $values ,] {
+        lappend found {*}[split $setting =]
+      }
+    }
+    return $found
+  }
+
+  # The constraints of a top with a preset, or with any parameters; the file's name is TOP and this ending.
+  proc constraints {release top values ending} {
+    set folder [file join $release rtl [room $top] constraints]
+    if {[room $top] eq "mb4" && $values ne "full"} {
+      set folder [file join $folder $values]
     }
     return [file join $folder $top$ending]
   }
 
-  # Stops at words that are no top and no preset.
-  proc check {top preset} {
-    variable tops
+  # Stops at words that are no top, no preset and no parameters.
+  proc check {top values} {
+    variable rooms
     variable presets
-    if {$top ni $tops || $preset ni $presets} {
-      error "TOP is one of $tops, PRESET one of $presets"
+    if {![dict exists $rooms $top]} {
+      error "TOP is one of [dict keys $rooms]"
+    }
+    if {[room $top] eq "mb4"} {
+      if {$values ni $presets} {
+        error "PRESET is one of $presets"
+      }
+    } elseif {$values ne "default" && ![regexp {^\w+=[\w']+(,\w+=[\w']+)*$} $values]} {
+      error "PARAMETERS are default, or NAME=VALUE,NAME=VALUE"
     }
   }
 }

@@ -1,13 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// biss_axi with a sink of its stream that has one pin, to place it on devices with few pins: a beat
+// biss_axi with a sink of its stream that has two pins, to place it on devices with few pins: a beat
 // is taken into a register, which then shifts out. Only for figures of speed.
 //
 // Clock domain: axi_aclk. Misuse: as biss_axi.
 
 module biss_axi_narrow #(
-  parameter int unsigned Channels = 1
+  parameter int unsigned Channels   = 1,
+  parameter int unsigned StreamMode = 0
 ) (
   input  logic        axi_aclk,
   input  logic        axi_aresetn,
@@ -28,6 +29,7 @@ module biss_axi_narrow #(
   output logic [1:0]  s_axi_rresp,
   output logic        s_axi_rvalid,
   input  logic        s_axi_rready,
+  input  logic        ready_i,
   output logic        stream_o,
   output logic [Channels-1:0] ma,
   input  logic [Channels-1:0] slo,
@@ -39,12 +41,15 @@ module biss_axi_narrow #(
   output logic        irq
 );
 
-  logic [32*Channels-1:0] data;
-  logic [Channels-1:0]    user;
-  logic                   valid, last;
-  logic [33*Channels:0]   beat_q;
+  localparam int unsigned DATA_W = StreamMode == 1 ? 32 : 32 * Channels;
+  localparam int unsigned USER_W = StreamMode == 1 ? 16 : Channels;
 
-  biss_axi #(.BISS_CHANNEL_WIDTH(Channels)) u_biss_axi (
+  logic [DATA_W-1:0]      data;
+  logic [USER_W-1:0]      user;
+  logic                   valid, last;
+  logic [DATA_W+USER_W:0] beat_q;
+
+  biss_axi #(.BISS_CHANNEL_WIDTH(Channels), .STREAM_MODE(StreamMode)) u_biss_axi (
     .axi_aclk,
     .axi_aresetn,
     .por_n         (1'b1),
@@ -67,7 +72,7 @@ module biss_axi_narrow #(
     .S_AXI_RREADY  (s_axi_rready),
     .s_axis_tdata  (data),
     .s_axis_tvalid (valid),
-    .s_axis_tready (1'b1),
+    .s_axis_tready (ready_i),
     .s_axis_tlast  (last),
     .s_axis_tuser  (user),
     .ma,
@@ -82,7 +87,7 @@ module biss_axi_narrow #(
 
   always_ff @(posedge axi_aclk or negedge axi_aresetn) begin
     if (!axi_aresetn) beat_q <= '0;
-    else              beat_q <= valid ? {user, data, last} : {1'b0, beat_q[33*Channels:1]};
+    else              beat_q <= valid ? {user, data, last} : {1'b0, beat_q[DATA_W+USER_W:1]};
   end
 
   assign stream_o = beat_q[0];

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The waveform of the BiSS C master on AXI: each model, each channel, all of a run or a part of it.
+// The waveform of the BiSS C master on AXI or SPI: each model, each channel, all of a run or a part
+// of it.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -259,6 +260,71 @@ TEST(AxiWaveOfAPart, Waveform_ChangesNothing) {
     return seen;
   };
   EXPECT_EQ(run(true), run(false));
+}
+
+// What stands between the falling and the rising edges of NCS: a level at each rising edge of SCLK.
+std::vector<std::string> spi_frames(const Waveform& wave, const std::string& data) {
+  const auto level = [](const Changes& changes, Time time) {
+    std::string value = changes.front().second;
+    for (const auto& change : changes) {
+      if (change.first < time) value = change.second;
+    }
+    return value;
+  };
+  std::vector<std::string> frames;
+  Time begin = 0;
+  for (const auto& ncs : of(wave, "ncs")) {
+    if (ncs.second == "0") begin = ncs.first;
+    if (ncs.second != "1" || begin == 0) continue;
+    std::string& bits = frames.emplace_back();
+    for (const auto& sclk : of(wave, "sclk")) {
+      if (sclk.second == "1" && sclk.first > begin && sclk.first < ncs.first)
+        bits += level(of(wave, data), sclk.first);
+    }
+  }
+  return frames;
+}
+
+std::string bits_of(const std::vector<std::uint8_t>& bytes) {
+  std::string bits;
+  for (const std::uint8_t byte : bytes) {
+    for (unsigned bit = 8; bit-- > 0;) bits += (byte >> bit & 1U) != 0 ? '1' : '0';
+  }
+  return bits;
+}
+
+// biss_spi: frames of SPI at the pins as its page has them (docs/axi.md), one channel and four.
+TEST(AxiWaveSpi, Frames_AreThoseOfThePage) {
+  for (const Kind& kind :
+       {Kind{"one", 1, ""}, Kind{"four", 4, ""}, Kind{"full", 4, "features = \"full\"\n"}}) {
+    SCOPED_TRACE(kind.name);
+    SimulatorOptions options;
+    options.trace_path = testing::TempDir() + "axi_wave_" + std::to_string(getpid()) + "_spi.fst";
+    Scenario scenario = scenario_of(kind);
+    scenario.host.interface = HostInterface::kSpi;
+    scenario.host.sclk_hz = 12'500'000;
+    {
+      Simulator simulator(scenario, options);
+      simulator.advance(41 * kPsPerUs);
+      for (const std::vector<std::uint8_t>& bytes :
+           {std::vector<std::uint8_t>{0x02, axireg::kAddrMaDivider, 0, 0, 0, 0, 0x5A},
+            std::vector<std::uint8_t>{0x03, axireg::kAddrMaDivider, 0, 0, 0, 0, 0}}) {
+        std::vector<std::uint8_t> answer(bytes.size());
+        simulator.spi().transfer(bytes, answer);
+        simulator.advance(kPsPerUs);
+      }
+    }
+    const Waveform wave = read_waveform(*options.trace_path);
+    std::filesystem::remove(*options.trace_path);
+    const std::vector<std::string> sent = spi_frames(wave, "mosi");
+    const std::vector<std::string> answered = spi_frames(wave, "miso");
+    ASSERT_EQ(sent.size(), 2U);
+    EXPECT_EQ(sent[0], bits_of({0x02, axireg::kAddrMaDivider, 0, 0, 0, 0, 0x5A}));
+    EXPECT_EQ(sent[1], bits_of({0x03, axireg::kAddrMaDivider, 0, 0, 0, 0, 0}));
+    // 0101, v after the reset, r; then the word.
+    EXPECT_EQ(answered[0], bits_of({0, 0, 0x55, 0, 0, 0, 0}));
+    EXPECT_EQ(answered[1], bits_of({0, 0, 0x55, 0, 0, 0, 0x5A}));
+  }
 }
 
 TEST(AxiWaveOfAPart, FileThatCannotBeWritten_IsAnErrorAndNoMore) {
