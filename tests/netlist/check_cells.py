@@ -42,7 +42,7 @@ def simulate(folder, *changes):
     for number, file in enumerate(files):
         status, text = yosys.execute(
             [f"read_verilog -lib {cells}",
-             f"read_verilog -sv {project.RTL / 'biss' / 'biss_pkg.sv'} {folder / 'biss_sl_capture.sv'}",
+             *yosys.read([project.RTL / "biss" / "biss_pkg.sv", folder / "biss_sl_capture.sv"]),
              f"chparam -set SlCells {number} biss_sl_capture",
              "hierarchy -top biss_sl_capture", "proc", "opt_clean",
              f"rename -top capture_{number}", f"write_verilog -noattr {file}"], folder, file.stem)

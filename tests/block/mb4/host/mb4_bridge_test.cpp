@@ -182,6 +182,55 @@ TYPED_TEST(WordBus, SlowCore_NoAccessEndsWithAnError) {
   bus.get(0x120);
 }
 
+// The longest of each access in clocks of the bus, over the phases of the two clocks.
+struct Cost {
+  unsigned any = 0, kept = 0, data = 0, behind_write = 0, time = 0, snapshot = 0, full_queue = 0;
+};
+
+template <typename Model>
+Cost cost_of(std::uint64_t bus_ps, std::uint64_t core_ps) {
+  Cost cost;
+  const auto worst = [](unsigned& most, const Answer& answer) {
+    EXPECT_FALSE(answer.error);
+    most = std::max(most, static_cast<unsigned>(answer.clocks));
+  };
+  for (unsigned phase = 0; phase < 24; ++phase) {
+    WordBusBench<Model> bus(bus_ps, core_ps, 1 + phase * core_ps / 24);
+    bus.get(page::kAddrTimeLow);  // the reset is over on both sides
+    worst(cost.any, bus.read(0xC0));
+    worst(cost.any, bus.write(0xC0, 0x5A5A5A5A));
+    worst(cost.kept, bus.read(page::kAddrIrqStatus));
+    worst(cost.data, bus.read(0x00));
+    worst(cost.time, bus.read(page::kAddrTimeLow));
+    worst(cost.snapshot, bus.read(snapshot(1, 0)));
+    worst(cost.kept, bus.read(snapshot(1, 4)));
+    worst(cost.any, bus.write(0x80, 1));
+    worst(cost.behind_write, bus.read(0x80));
+    for (std::uint32_t i = 0; i < 64; ++i)
+      worst(cost.full_queue, bus.write(0x80 + 4 * (i % 16), i));
+  }
+  return cost;
+}
+
+// docs/buses.md, "What a slow core costs": at most, in clocks of the bus, with `ratio` of them to a
+// clock of the core.
+TYPED_TEST(WordBus, SlowCore_CostsNoMoreThanThePageSays) {
+  for (const unsigned ratio : {1U, 4U, 10U, 40U}) {
+    SCOPED_TRACE(ratio);
+    const Cost cost = cost_of<TypeParam>(10'000, 10'000 * ratio);
+    EXPECT_LE(cost.kept, 7U);
+    EXPECT_LE(cost.any, 11U);
+    EXPECT_LE(cost.data, 11U);
+    EXPECT_LE(cost.behind_write, 7 * ratio + 8);
+    EXPECT_LE(cost.time, 21 * ratio + 11);
+    EXPECT_LE(cost.snapshot, 33 * ratio + 11);
+    EXPECT_LE(cost.full_queue, 124 * ratio + 30);
+    // A slow core costs what the page says, not less.
+    EXPECT_GT(cost.time, 20 * ratio);
+    EXPECT_GT(cost.snapshot, 32 * ratio);
+  }
+}
+
 // AGSMIN with both lines busy, snapshots all the time, random reads and writes of the page between
 // them: each snapshot is of one frame, with its number and its time; no frame is left out and no
 // flag changes.
