@@ -6,6 +6,7 @@
 dsl_pkg.sv
 dsl_program_pkg.sv
 dsl_map_pkg.sv
+dsl_message_pkg.sv
 ../../regmap/generated/dsl/dsl_regs_pkg.sv
 ../../regmap/generated/dsl_page/dsl_page_regs_pkg.sv
 dsl_code_tx.sv
@@ -20,11 +21,18 @@ dsl_quality.sv
 dsl_judge.sv
 dsl_link.sv
 dsl_line.sv
+dsl_crc16.sv
 dsl_vertical.sv
 dsl_program.sv
 dsl_position.sv
 dsl_record.sv
 dsl_time.sv
+dsl_request.sv
+dsl_answer.sv
+dsl_stored.sv
+dsl_work.sv
+dsl_message.sv
+dsl_events.sv
 dsl_map.sv
 dsl_regs.sv
 dsl_core.sv

@@ -19,7 +19,8 @@ module dsl_axil #(
   parameter int unsigned RX_START     = 5,
   parameter int unsigned START_BLOCKS = 4,
   parameter int unsigned VSYNC_LIMIT  = 64,
-  parameter int unsigned STALE_LIMIT  = SDK_MAP ? 0 : 2
+  parameter int unsigned STALE_LIMIT  = SDK_MAP ? 0 : 2,
+  parameter bit          CHECK_ANSWERS = !SDK_MAP
 ) (
   // AXI4-Lite
   input  logic        s_axi_aclk,
@@ -48,6 +49,7 @@ module dsl_axil #(
   output logic        link_o,
   output logic        sample_edge_o,
   output logic        position_ready_o,
+  output logic [4:0]  interrupts_o,
   // DSL
   output logic        dsl_out_o,
   output logic        dsl_en_o,
@@ -64,6 +66,7 @@ module dsl_axil #(
   dsl_pkg::quirks_t quirks;
 
   always_comb begin
+    quirks.check_answers = CHECK_ANSWERS;
     quirks.sdk_map      = SDK_MAP;
     quirks.recover      = RECOVER;
     quirks.strict_code  = STRICT_CODE;
@@ -104,6 +107,7 @@ module dsl_axil #(
     .link_o,
     .sample_edge_o,
     .position_ready_o,
+    .interrupts_o,
     .dsl_out_o,
     .dsl_en_o,
     .dsl_in_i

@@ -9,7 +9,7 @@
 // left out. quirks_i stands still; dsl_in_i is asynchronous; outputs: dsl_core.
 // Reset: s_axi_aresetn resets the bus side, rst_ni the core with its registers. Both may fall and
 // rise at any time; an access that meets a core in reset waits for it, or for WaitLimit.
-// Latency: enc_axil, dsl_bridge and dsl_regs; an access takes 10 clocks of the core, and 6 of the
+// Latency: enc_axil, dsl_bridge and dsl_regs; an access takes 11 clocks of the core, and 6 of the
 // bus. An access without an answer within WaitLimit clocks of the bus ends with SLVERR: the clock
 // of the core stands still. A write is done all the same when it runs again.
 // Misuse of the bus: enc_axil. Addresses that hold nothing read 0 and ignore writes.
@@ -47,6 +47,7 @@ module dsl_bus #(
   output logic             link_o,
   output logic             sample_edge_o,
   output logic             position_ready_o,
+  output logic [4:0]       interrupts_o,
   // DSL
   output logic             dsl_out_o,
   output logic             dsl_en_o,
@@ -152,6 +153,7 @@ module dsl_bus #(
     .link_o,
     .sample_edge_o,
     .position_ready_o,
+    .interrupts_o,
     .dsl_out_o,
     .dsl_en_o,
     .dsl_in_i

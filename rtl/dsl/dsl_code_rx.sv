@@ -3,7 +3,8 @@
 //
 // A received word: its byte, and whether it may be there.
 //
-// Clock domain: none, combinational.
+// Clock domain: core. word_o is that of the line_i of the clock before; strict_i, raw_i and
+// second_i are of now. Synthesis makes a read-only memory of the table of the block of six.
 //
 // strict_i: the 464 words of the standard are right: 440 of data, K28.0 to K28.7, K23.7, K27.7,
 // K29.7, K30.7, each as it follows a right start. Else as published: four or five equal bits in two
@@ -15,6 +16,7 @@
 // Source: docs/dsl.md, "The protocol"; Widmer and Franaszek for the code.
 
 module dsl_code_rx (
+  input  logic           clk_i,
   input  logic [9:0]     line_i,          // the first bit is bit 9
   input  logic           strict_i,
   input  logic           raw_i,           // K28 as the tables of data have it
@@ -22,7 +24,9 @@ module dsl_code_rx (
   output dsl_pkg::word_t word_o
 );
 
+  logic [9:0] line_q;
   logic [5:0] six;
+  logic [9:0] row;
   logic [3:0] four;
   logic [4:0] x;
   logic [2:0] y;
@@ -41,63 +45,69 @@ module dsl_code_rx (
   logic       many_equal;
   logic       mend;
 
-  assign {six, four} = line_i;
+  always_ff @(posedge clk_i) begin
+    line_q <= line_i;
+  end
+  assign {six, four} = line_q;
+
+  // Of a block of six: in no table, K28, four ones, two ones, special with both of its forms; x.
+  always_comb begin
+    (* rom_block *)
+    case (six)
+      6'b011000: row = {5'b00010, 5'd0};
+      6'b100111: row = {5'b00100, 5'd0};
+      6'b100010: row = {5'b00010, 5'd1};
+      6'b011101: row = {5'b00100, 5'd1};
+      6'b010010: row = {5'b00010, 5'd2};
+      6'b101101: row = {5'b00100, 5'd2};
+      6'b110001: row = {5'b00000, 5'd3};
+      6'b001010: row = {5'b00010, 5'd4};
+      6'b110101: row = {5'b00100, 5'd4};
+      6'b101001: row = {5'b00000, 5'd5};
+      6'b011001: row = {5'b00000, 5'd6};
+      6'b000111: row = {5'b00100, 5'd7};    // balanced: the disparity stays positive
+      6'b111000: row = {5'b00010, 5'd7};    // ... negative
+      6'b000110: row = {5'b00010, 5'd8};
+      6'b111001: row = {5'b00100, 5'd8};
+      6'b100101: row = {5'b00000, 5'd9};
+      6'b010101: row = {5'b00000, 5'd10};
+      6'b110100: row = {5'b00000, 5'd11};
+      6'b001101: row = {5'b00000, 5'd12};
+      6'b101100: row = {5'b00000, 5'd13};
+      6'b011100: row = {5'b00000, 5'd14};
+      6'b101000: row = {5'b00010, 5'd15};
+      6'b010111: row = {5'b00100, 5'd15};
+      6'b100100: row = {5'b00010, 5'd16};
+      6'b011011: row = {5'b00100, 5'd16};
+      6'b100011: row = {5'b00000, 5'd17};
+      6'b010011: row = {5'b00000, 5'd18};
+      6'b110010: row = {5'b00000, 5'd19};
+      6'b001011: row = {5'b00000, 5'd20};
+      6'b101010: row = {5'b00000, 5'd21};
+      6'b011010: row = {5'b00000, 5'd22};
+      6'b000101: row = {5'b00011, 5'd23};
+      6'b111010: row = {5'b00101, 5'd23};
+      6'b001100: row = {5'b00010, 5'd24};
+      6'b110011: row = {5'b00100, 5'd24};
+      6'b100110: row = {5'b00000, 5'd25};
+      6'b010110: row = {5'b00000, 5'd26};
+      6'b001001: row = {5'b00011, 5'd27};
+      6'b110110: row = {5'b00101, 5'd27};
+      6'b001110: row = {5'b00000, 5'd28};
+      6'b110000: row = {5'b01010, 5'd28};
+      6'b001111: row = {5'b01100, 5'd28};
+      6'b010001: row = {5'b00011, 5'd29};
+      6'b101110: row = {5'b00101, 5'd29};
+      6'b100001: row = {5'b00011, 5'd30};
+      6'b011110: row = {5'b00101, 5'd30};
+      6'b010100: row = {5'b00010, 5'd31};
+      6'b101011: row = {5'b00100, 5'd31};
+      default:   row = {5'b10000, 5'd31};
+    endcase
+  end
+  assign {none6, k28, more, less, can_special, x} = row;
 
   always_comb begin
-    {none6, k28, more, less, can_special} = 5'b00000;
-    x = 5'd31;
-    case (six)
-      6'b011000: begin x = 5'd0;  less = 1'b1; end
-      6'b100111: begin x = 5'd0;  more = 1'b1; end
-      6'b100010: begin x = 5'd1;  less = 1'b1; end
-      6'b011101: begin x = 5'd1;  more = 1'b1; end
-      6'b010010: begin x = 5'd2;  less = 1'b1; end
-      6'b101101: begin x = 5'd2;  more = 1'b1; end
-      6'b110001: x = 5'd3;
-      6'b001010: begin x = 5'd4;  less = 1'b1; end
-      6'b110101: begin x = 5'd4;  more = 1'b1; end
-      6'b101001: x = 5'd5;
-      6'b011001: x = 5'd6;
-      6'b000111: begin x = 5'd7;  more = 1'b1; end    // balanced: the disparity stays positive
-      6'b111000: begin x = 5'd7;  less = 1'b1; end    // ... negative
-      6'b000110: begin x = 5'd8;  less = 1'b1; end
-      6'b111001: begin x = 5'd8;  more = 1'b1; end
-      6'b100101: x = 5'd9;
-      6'b010101: x = 5'd10;
-      6'b110100: x = 5'd11;
-      6'b001101: x = 5'd12;
-      6'b101100: x = 5'd13;
-      6'b011100: x = 5'd14;
-      6'b101000: begin x = 5'd15; less = 1'b1; end
-      6'b010111: begin x = 5'd15; more = 1'b1; end
-      6'b100100: begin x = 5'd16; less = 1'b1; end
-      6'b011011: begin x = 5'd16; more = 1'b1; end
-      6'b100011: x = 5'd17;
-      6'b010011: x = 5'd18;
-      6'b110010: x = 5'd19;
-      6'b001011: x = 5'd20;
-      6'b101010: x = 5'd21;
-      6'b011010: x = 5'd22;
-      6'b000101: begin x = 5'd23; less = 1'b1; can_special = 1'b1; end
-      6'b111010: begin x = 5'd23; more = 1'b1; can_special = 1'b1; end
-      6'b001100: begin x = 5'd24; less = 1'b1; end
-      6'b110011: begin x = 5'd24; more = 1'b1; end
-      6'b100110: x = 5'd25;
-      6'b010110: x = 5'd26;
-      6'b001001: begin x = 5'd27; less = 1'b1; can_special = 1'b1; end
-      6'b110110: begin x = 5'd27; more = 1'b1; can_special = 1'b1; end
-      6'b001110: x = 5'd28;
-      6'b110000: begin x = 5'd28; less = 1'b1; k28 = 1'b1; end
-      6'b001111: begin x = 5'd28; more = 1'b1; k28 = 1'b1; end
-      6'b010001: begin x = 5'd29; less = 1'b1; can_special = 1'b1; end
-      6'b101110: begin x = 5'd29; more = 1'b1; can_special = 1'b1; end
-      6'b100001: begin x = 5'd30; less = 1'b1; can_special = 1'b1; end
-      6'b011110: begin x = 5'd30; more = 1'b1; can_special = 1'b1; end
-      6'b010100: begin x = 5'd31; less = 1'b1; end
-      6'b101011: begin x = 5'd31; more = 1'b1; end
-      default:   none6 = 1'b1;
-    endcase
-
     {none4, wants_more, wants_less, seven, seven2} = 5'b00000;
     y = 3'd7;
     case (four)
@@ -127,12 +137,12 @@ module dsl_code_rx (
   assign data       = fits && !k28 && !(seven && ends_equal) && !(seven2 && !ends_equal);
 
   // As published. c = d = e = i, or e and i differ and i = g = h = j.
-  assign looks_special = line_i[7:4] == 4'b0000 || line_i[7:4] == 4'b1111
-                      || {line_i[5:4], line_i[2:0]} == 5'b01_111
-                      || {line_i[5:4], line_i[2:0]} == 5'b10_000;
+  assign looks_special = line_q[7:4] == 4'b0000 || line_q[7:4] == 4'b1111
+                      || {line_q[5:4], line_q[2:0]} == 5'b01_111
+                      || {line_q[5:4], line_q[2:0]} == 5'b10_000;
   // a = b = c = d, or e = i = f = g = h.
-  assign many_equal    = line_i[9:6] == 4'b0000 || line_i[9:6] == 4'b1111
-                      || line_i[5:1] == 5'b00000 || line_i[5:1] == 5'b11111;
+  assign many_equal    = line_q[9:6] == 4'b0000 || line_q[9:6] == 4'b1111
+                      || line_q[5:1] == 5'b00000 || line_q[5:1] == 5'b11111;
 
   // y = 1, 2, 5, 6 has no disparity.
   assign mend = (second_i || (strict_i && !raw_i)) && k28 && less

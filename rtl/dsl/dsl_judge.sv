@@ -3,17 +3,17 @@
 //
 // Judges the answers: the words with their errors, and what they do to the quality of the link.
 //
-// Clock domain: core. A word shows with valid_o, one clock behind word_valid_i, and stays up to the
-// next one. ends_o is one clock behind done_i, and judged_o three behind ends_o: good_o and
-// verdict_i then say whether the link goes on, and from the next clock on quality_o is that of this
-// frame.
+// Clock domain: core. A word shows with valid_o, two clocks behind word_valid_i, and stays up to
+// the next one; number_o is a clock earlier. ends_o is two clocks behind done_i, and judged_o three
+// behind ends_o: good_o and verdict_i then say whether the link goes on, and from the next clock on
+// quality_o is that of this frame.
 //
 // Only running frames move the quality (running_i). VSYNC belongs into the last of the eight frames
 // alone; where S_PAR has an error of its code, VSYNC is not looked at. The acceleration has one
 // deduction for both of its words. With the strict check K28.x is a byte like others but in S_PAR.
-// verdict_i is looked at behind ends_o. illegal_o counts in each frame with words (words_i).
-// Misuse: a word less than two clocks behind another, or ends_o less than two behind a word, loses
-// events.
+// verdict_i is looked at behind ends_o. illegal_o comes in each frame with words (words_i).
+// Misuse: a word less than three clocks behind another, or done_i less than two behind a word,
+// loses events.
 // Source: docs/dsl.md, "Choices of this master".
 
 module dsl_judge (
@@ -41,7 +41,7 @@ module dsl_judge (
   output logic              good_o,
   output logic [3:0]        quality_o,
   output logic              low_o,
-  output logic [15:0]       illegal_o
+  output logic              illegal_o      // one clock: only the strict check refuses a word
 );
 
   localparam logic [2:0] VERTICAL   = 3'd0;
@@ -56,13 +56,13 @@ module dsl_judge (
   localparam logic [4:0] K28        = 5'd28;
   localparam logic [3:0] LOW_RSSI   = 4'd2;
 
-  logic           valid_q, second_q;     // a word: its first clock, and the next one
+  logic           comes_q;               // a word: the code is looked up,
+  logic           valid_q, second_q;     // ... its first clock, and the next one
   logic [2:0]     number_q;
   dsl_pkg::word_t decoded, word_q;
   logic           before_q;              // the word before had an error of its code
-  logic           ends_q;                // the steps at the end of a frame, one clock each
+  logic           done_q, ends_q;        // the steps at the end of a frame, one clock each
   logic           safe1_q, safe2_q, judged_q;
-  logic [15:0]    illegal_q;
   logic           vsync, last, k28;
   logic           marker;                // allowed there
   logic           special;               // one that must not be there
@@ -70,10 +70,11 @@ module dsl_judge (
   logic [3:0]     what;                  // dsl_pkg::event_e
 
   dsl_code_rx u_code (
+    .clk_i,
     .line_i,
     .strict_i (quirks_i.strict_code),
-    .raw_i    (quirks_i.sdk_map || number_i == HIGH_WORD || number_i == LOW_WORD),
-    .second_i (number_i == SECONDARY),
+    .raw_i    (quirks_i.sdk_map || number_q == HIGH_WORD || number_q == LOW_WORD),
+    .second_i (number_q == SECONDARY),
     .word_o   (decoded)
   );
 
@@ -143,29 +144,31 @@ module dsl_judge (
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
+      comes_q   <= 1'b0;
       valid_q   <= 1'b0;
       second_q  <= 1'b0;
       number_q  <= VERTICAL;
       word_q    <= '0;
       before_q  <= 1'b0;
+      done_q    <= 1'b0;
       ends_q    <= 1'b0;
       safe1_q   <= 1'b0;
       safe2_q   <= 1'b0;
       judged_q  <= 1'b0;
-      illegal_q <= '0;
     end else begin
-      valid_q  <= word_valid_i;
+      comes_q  <= word_valid_i;
+      valid_q  <= comes_q;
       second_q <= valid_q;
-      ends_q   <= done_i;
+      done_q   <= done_i;
+      ends_q   <= done_q;
       safe1_q  <= ends_q;
       safe2_q  <= safe1_q;
       judged_q <= safe2_q;
-      if (word_valid_i) begin
-        number_q <= number_i;
+      if (word_valid_i) number_q <= number_i;
+      if (comes_q) begin
         word_q   <= decoded;
         before_q <= word_q.error;
       end
-      if (valid_q && words_i && word_q.only_strict) illegal_q <= illegal_q + 16'd1;
     end
   end
 
@@ -174,6 +177,6 @@ module dsl_judge (
   assign word_o    = word_q;
   assign ends_o    = ends_q;
   assign judged_o  = judged_q;
-  assign illegal_o = illegal_q;
+  assign illegal_o = valid_q && words_i && word_q.only_strict;
 
 endmodule

@@ -39,7 +39,7 @@ module dsl_learn (
   logic [2:0]  ones_q, ones;    // in front of the edge, or of the slot
   logic [2:0]  eighth;
   logic [2:0]  eighth_q;
-  logic [5:0]  number_q;        // of the next bit of the pattern
+  logic [5:0]  number_q;        // bits of the pattern that follow the next one
   logic        over_q;          // the pattern has been shown
   logic        next;            // bit of the pattern
   logic [11:1] pattern_q;       // its bit for each candidate
@@ -66,7 +66,7 @@ module dsl_learn (
   assign delay_o  = delay_q;
   assign eighth_o = start_i && last && lows && !had ? eighth : eighth_q;
 
-  assign next = dsl_pkg::TEST_PATTERN[dsl_pkg::LAST_BIT - number_q];
+  assign next = dsl_pkg::TEST_PATTERN[number_q];
 
   always_comb begin
     delay = 4'd0;
@@ -79,7 +79,7 @@ module dsl_learn (
       had_q     <= 1'b0;
       ones_q    <= '0;
       eighth_q  <= '0;
-      number_q  <= '0;
+      number_q  <= dsl_pkg::LAST_BIT;
       over_q    <= 1'b0;
       pattern_q <= '0;
       shown_q   <= '0;
@@ -93,13 +93,13 @@ module dsl_learn (
       end
       eighth_q <= eighth_o & {3{!forget_i}};
       if (begins) begin
-        number_q  <= '0;
+        number_q  <= dsl_pkg::LAST_BIT;
         over_q    <= 1'b0;
         shown_q   <= '0;
         alive_q   <= '1;
       end else if (bit_valid_i) begin
-        if (number_q != dsl_pkg::LAST_BIT) number_q <= number_q + 6'd1;
-        else                               over_q   <= 1'b1;
+        if (number_q != 6'd0) number_q <= number_q - 6'd1;
+        else                  over_q   <= 1'b1;
         pattern_q <= {pattern_q[10:1], next};
         shown_q   <= {shown_q[10:1], !over_q};
         alive_q   <= alive_q & ~(shown_q & (pattern_q ^ {11{bit_i}}));

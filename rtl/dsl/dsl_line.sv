@@ -4,13 +4,14 @@
 // A line of DSL: its pins, its frames, its link. What the answers say goes out word by word;
 // the position and the safe channels are others' work (dsl_position, dsl_vertical).
 //
-// Clock domain: core, 75 MHz. line_i is asynchronous. answer_o.ends is one clock behind the done_o
-// of dsl_receiver, at tick 846 of the frame at the latest; three clocks later the frame is judged,
+// Clock domain: core, 75 MHz. line_i is asynchronous. answer_o.ends is two clocks behind the done_o
+// of dsl_receiver, at tick 847 of the frame at the latest; three clocks later the frame is judged,
 // and with ended_o, one more later, status_o is that of the frame. sampled_o is 1 in the clock with
 // which the falling edge of SAMPLE is at the pin.
 //
 // hold_i keeps the driver off and the link at its begin. quirks_i must not change while the link
 // runs: a frame would be a mixture.
+// symbol_i may change in the clock behind begin_o alone.
 // Misuse: sampled_o does not know eighths of a bit; the free run has none.
 // Source: docs/dsl.md.
 
@@ -20,8 +21,11 @@ module dsl_line (
   input  dsl_pkg::quirks_t      quirks_i,
   input  logic                  hold_i,
   input  dsl_pkg::verdict_t     verdict_i,
+  input  logic [4:0]            symbol_i,     // of M_PAR in a running frame
+  output logic                  begin_o,      // a frame or a gap does with the next clock
   output dsl_pkg::answer_t      answer_o,
   output dsl_pkg::line_status_t status_o,
+  output dsl_pkg::counts_t      counts_o,
   output logic                  ended_o,
   output logic                  sampled_o,
   // pins
@@ -47,12 +51,10 @@ module dsl_line (
   logic [2:0]       word_number;
   dsl_pkg::word_t   word;
   logic [3:0]       quality;
-  logic [15:0]      illegal;
   logic             start, linked, begins, running;
   logic [2:0]       vertical_place;
   logic [3:0]       state;
   logic [2:0]       reason;
-  logic [15:0]      resets;
   logic [19:0]      identity;
   logic [5:0]       width;
   logic             ended_q, sampled_q;
@@ -69,7 +71,7 @@ module dsl_line (
     .line_i
   );
 
-  dsl_tx u_tx (
+  dsl_tx #(.DisparityW(3)) u_tx (
     .clk_i,
     .rst_ni,
     .slot_i  (slot),
@@ -119,7 +121,7 @@ module dsl_line (
     .good_o       (good),
     .quality_o    (quality),
     .low_o        (low),
-    .illegal_o    (illegal)
+    .illegal_o    (counts_o.illegal)
   );
 
   dsl_link u_link (
@@ -128,6 +130,7 @@ module dsl_line (
     .quirks_i,
     .hold_i,
     .begin_i    (frame_begin),
+    .symbol_i,
     .plan_o     (plan),
     .gap_o      (gap),
     .forget_o   (forget),
@@ -148,7 +151,7 @@ module dsl_line (
     .place_o    (vertical_place),
     .state_o    (state),
     .reason_o   (reason),
-    .resets_o   (resets),
+    .restart_o  (counts_o.restart),
     .identity_o (identity),
     .width_o    (width)
   );
@@ -163,6 +166,7 @@ module dsl_line (
     end
   end
 
+  assign begin_o   = frame_begin;
   assign ended_o   = ended_q;
   assign sampled_o = sampled_q;
 
@@ -177,8 +181,6 @@ module dsl_line (
 
   assign status_o.state    = state;
   assign status_o.reason   = reason;
-  assign status_o.resets   = resets;
-  assign status_o.illegal  = illegal;
   assign status_o.identity = identity;
   assign status_o.width    = width;
   assign status_o.quality  = quality;

@@ -15,6 +15,7 @@
 // identity is good if its two copies agree, and if its widths can be: 8 to 11 bits for the
 // acceleration, 40 at most for the position. With strict_id it also has to be whole, and the link
 // ends with a safe position that has bits above the width. A vsync_limit of 0 is none.
+// symbol_i may change with begin_i alone.
 // hold_i: the frame is finished, then the driver is off up to the end of hold_i. This is no restart
 // that counts.
 // Misuse: none.
@@ -27,6 +28,7 @@ module dsl_link (
   input  logic             hold_i,
   // frames
   input  logic             begin_i,
+  input  logic [4:0]       symbol_i,       // of M_PAR in a running frame
   output dsl_pkg::plan_t   plan_o,
   output logic             gap_o,
   // windows
@@ -49,7 +51,7 @@ module dsl_link (
   output logic [2:0]       place_o,        // of a running frame in its vertical frame
   output logic [3:0]       state_o,        // dsl_pkg::state_e
   output logic [2:0]       reason_o,       // dsl_pkg::reason_e
-  output logic [15:0]      resets_o,
+  output logic             restart_o,      // one clock: the link begins again
   output logic [19:0]      identity_o,
   output logic [5:0]       width_o         // of the position, less 8
 );
@@ -57,7 +59,6 @@ module dsl_link (
   localparam logic [7:0] RESET_LAST = 8'd1;
   localparam logic [7:0] SYNC_LAST  = 8'd15;     // CHECK too
   localparam logic [7:0] START_LAST = 8'd8;      // LEARN too
-  localparam logic [6:0] MOST_BITS  = 7'd40 - 7'd8;
   localparam logic [3:0] MOST_ACCELERATION = 4'd11 - 4'd8;
   localparam logic [7:0] FIRST      = 8'h80;     // bits of M_PAR
 
@@ -69,7 +70,6 @@ module dsl_link (
   logic        wrong_d, wrong_q;   // the pattern or the identity of this frame
   logic        linked_q, begins_q;
   logic [2:0]  reason_q;
-  logic [15:0] resets_q;
   logic [7:0]  low_q, high_q;      // bytes of the identity
   logic [3:0]  top_q;
   logic        last;               // frame of this state
@@ -77,6 +77,7 @@ module dsl_link (
   logic        fails;              // the frame does
   logic        restart;
   logic [6:0]  width;              // of the position, less 8
+  logic        wide;
   logic        more;               // another part of the identity would follow
 
   assign asks    = state_q == dsl_pkg::ID_STATE;
@@ -129,8 +130,12 @@ module dsl_link (
       dsl_pkg::CHECK_STATE: plan_o.parameter_byte = {3'd0, dsl_pkg::CHECK};
       dsl_pkg::ID_STATE:    plan_o.parameter_byte = {3'd0, dsl_pkg::ID_REQUEST};
       dsl_pkg::VSYNC_STATE: plan_o.parameter_byte = FIRST | {3'd0, dsl_pkg::INIT};
-      // msync changes with each vertical frame.
-      default:              plan_o.parameter_byte[6] = count_q[3];
+      dsl_pkg::RUN_STATE: begin
+        plan_o.parameter_byte[4:0] = symbol_i;
+        // msync changes with each vertical frame.
+        plan_o.parameter_byte[6]   = count_q[3];
+      end
+      default: ;
     endcase
   end
   always_comb begin
@@ -144,12 +149,13 @@ module dsl_link (
 
   // The identity stands there twice. Errors of the code are not looked at.
   assign width = {1'b0, high_q[1:0], low_q[7:4]} + {3'd0, low_q[3:0]};
+  assign wide  = width[6] || (width[5] && width[4:0] != 5'd0);    // more than 40 bits
   assign more  = top_q[3] && quirks_i.strict_id;
   always_comb begin
     wrong_d = wrong_q;
     if (done_i) begin
       if (!asks) wrong_d = !match_i;
-      else if (low_q[3:0] > MOST_ACCELERATION || width > MOST_BITS || more) wrong_d = 1'b1;
+      else if (low_q[3:0] > MOST_ACCELERATION || wide || more) wrong_d = 1'b1;
     end
     if (asks && valid_i) begin
       case (number_i)
@@ -169,7 +175,7 @@ module dsl_link (
     if (running) fails = !good_i || missing_i || misfit_i;
   end
   assign restart = judged_i && fails && !gap_o;
-  assign start_o = judged_i && !fails && asks && !gap_o;
+  assign start_o = judged_i && !wrong_q && asks && !gap_o;
   assign gap_o   = gap_q || hold_i;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -182,7 +188,6 @@ module dsl_link (
       linked_q <= 1'b0;
       begins_q <= 1'b0;
       reason_q <= dsl_pkg::NO_RESTART;
-      resets_q <= '0;
       low_q    <= '0;
       high_q   <= '0;
       top_q    <= '0;
@@ -202,7 +207,6 @@ module dsl_link (
         // Each state has its reason, RUN three.
         reason_q <= (state_q[2:0] - 3'd2) | {2'd0, running && good_i};
         if (running && good_i && !missing_i) reason_q <= dsl_pkg::BAD_IDENTITY;
-        resets_q <= resets_q + 16'd1;
       end
       if (asks && valid_i && number_i == 3'd0) low_q  <= word_i.data;
       if (asks && valid_i && number_i == 3'd1) high_q <= word_i.data;
@@ -217,7 +221,7 @@ module dsl_link (
   assign place_o    = count_q[2:0];
   assign state_o    = state_q;
   assign reason_o   = reason_q;
-  assign resets_o   = resets_q;
+  assign restart_o  = restart;
   assign identity_o = {top_q, high_q, low_q};
   assign width_o    = width[5:0];
 

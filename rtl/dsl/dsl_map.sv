@@ -22,7 +22,7 @@ module dsl_map (
   localparam logic [2:0] SAFE2_WORDS = dsl_map_pkg::WINDOW_SAFE2;
 
   // Added to a row.
-  localparam logic [15:0] SDK = 16'h1000, HOLD = 16'h0800;
+  localparam logic [15:0] SDK = 16'h1000, HOLD = 16'h0800, OURS = SDK | HOLD;
 
   // The first byte of a group copies it, later ones come from the copy.
   function automatic logic [15:0] first(input logic [2:0] group, input logic [7:0] place);
@@ -43,11 +43,22 @@ module dsl_map (
   function automatic logic [15:0] safe2(input logic [7:0] place);
     safe2 = {dsl_map_pkg::SAFE2_STATE, 1'b0, 1'b0, dsl_map_pkg::WINDOW_SAFE2, place};
   endfunction
-  function automatic logic [15:0] register(input logic [7:0] number);
-    register = {dsl_map_pkg::REGISTER, 1'b0, 1'b0, 3'd0, number};
+  function automatic logic [15:0] toggles(input logic [7:0] place);
+    toggles = {dsl_map_pkg::TOGGLES, 1'b0, 1'b0, dsl_map_pkg::NEWEST, place};
+  endfunction
+  function automatic logic [15:0] register(input logic [5:0] number);
+    register = {dsl_map_pkg::REGISTER, 1'b0, 1'b0, 3'd0, 2'd0, number};
   endfunction
   function automatic logic [15:0] constant(input logic [7:0] value);
     constant = {dsl_map_pkg::CONSTANT, 1'b0, 1'b0, 3'd0, value};
+  endfunction
+
+  function automatic logic [15:0] stored(input logic [5:0] place, input logic [1:0] who);
+    stored = {dsl_map_pkg::STORED, 1'b0, 1'b0, 3'd0, who, place};
+  endfunction
+  // A write reaches more than the memory.
+  function automatic logic [15:0] store(input logic [2:0] what);
+    store = {5'd0, what, 8'd0};
   endfunction
 
   logic [8:0]  address_q;
@@ -56,14 +67,26 @@ module dsl_map (
   always_comb begin
     case (address_q)
       // The map.
-      9'(dsl_regs_pkg::ADDR_SYS_CTRL):                     row = register(dsl_map_pkg::SYS_CTRL);
-      9'(dsl_regs_pkg::ADDR_SYNC_CTRL):                    row = register(dsl_map_pkg::SYNC_CTRL);
+      9'(dsl_regs_pkg::ADDR_SYS_CTRL):
+        row = register(dsl_map_pkg::SYS_CTRL) | store(dsl_map_pkg::STORE_CTRL);
+      9'(dsl_regs_pkg::ADDR_SYNC_CTRL):
+        row = stored(dsl_message_pkg::SYNC_CTRL, dsl_map_pkg::ALWAYS);
       9'(dsl_regs_pkg::ADDR_MASTER_QM):                    row = register(dsl_map_pkg::MASTER_QM);
-      9'(dsl_regs_pkg::ADDR_EVENT_H):                      row = register(dsl_map_pkg::EVENT_H);
-      9'(dsl_regs_pkg::ADDR_EVENT_L):                      row = register(dsl_map_pkg::EVENT_L);
+      9'(dsl_regs_pkg::ADDR_EVENT_H):
+        row = register(dsl_map_pkg::EVENT_H) | store(dsl_map_pkg::STORE_H);
+      9'(dsl_regs_pkg::ADDR_EVENT_L):
+        row = register(dsl_map_pkg::EVENT_L) | store(dsl_map_pkg::STORE_L);
+      9'(dsl_regs_pkg::ADDR_MASK_H):
+        row = stored(dsl_message_pkg::MASK_H, dsl_map_pkg::ALWAYS) | store(dsl_map_pkg::STORE_H);
+      9'(dsl_regs_pkg::ADDR_MASK_L):
+        row = stored(dsl_message_pkg::MASK_L, dsl_map_pkg::ALWAYS) | store(dsl_map_pkg::STORE_L);
+      9'(dsl_regs_pkg::ADDR_MASK_SUM):
+        row = stored(dsl_message_pkg::MASK_SUM, dsl_map_pkg::ALWAYS)
+              | store(dsl_map_pkg::STORE_SUM);
       9'(dsl_regs_pkg::ADDR_EDGES):                        row = register(dsl_map_pkg::EDGES);
       9'(dsl_regs_pkg::ADDR_DELAY):                        row = register(dsl_map_pkg::DELAY);
       9'(dsl_regs_pkg::ADDR_CODE_VERSION): row = register(dsl_map_pkg::CODE_VERSION);
+      9'(dsl_regs_pkg::ADDR_RELEASE): row = constant(dsl_regs_pkg::RESET_RELEASE);
       9'(dsl_regs_pkg::ADDR_ENC_ID2):                      row = register(dsl_map_pkg::ENC_ID2);
       9'(dsl_regs_pkg::ADDR_ENC_ID1):                      row = register(dsl_map_pkg::ENC_ID1);
       9'(dsl_regs_pkg::ADDR_ENC_ID0):                      row = register(dsl_map_pkg::ENC_ID0);
@@ -83,11 +106,56 @@ module dsl_map (
       9'(dsl_regs_pkg::ADDR_VPOS0):                        row = later(SAFE1, 8'd32);
       9'(dsl_regs_pkg::ADDR_VPOSCRC_H):                    row = later(SAFE1, 8'd39);
       9'(dsl_regs_pkg::ADDR_VPOSCRC_L):                    row = later(SAFE1, 8'd38);
-      9'(dsl_regs_pkg::ADDR_SAFE_CTRL): row = register(dsl_map_pkg::SAFE_CTRL) | SDK;
+      9'(dsl_regs_pkg::ADDR_PC_BUFFER0):
+        row = stored(dsl_message_pkg::BUFFER + 6'd0, dsl_map_pkg::NO_LONG);
+      9'(dsl_regs_pkg::ADDR_PC_BUFFER1):
+        row = stored(dsl_message_pkg::BUFFER + 6'd1, dsl_map_pkg::NO_LONG);
+      9'(dsl_regs_pkg::ADDR_PC_BUFFER2):
+        row = stored(dsl_message_pkg::BUFFER + 6'd2, dsl_map_pkg::NO_LONG);
+      9'(dsl_regs_pkg::ADDR_PC_BUFFER3):
+        row = stored(dsl_message_pkg::BUFFER + 6'd3, dsl_map_pkg::NO_LONG);
+      9'(dsl_regs_pkg::ADDR_PC_BUFFER4):
+        row = stored(dsl_message_pkg::BUFFER + 6'd4, dsl_map_pkg::NO_LONG);
+      9'(dsl_regs_pkg::ADDR_PC_BUFFER5):
+        row = stored(dsl_message_pkg::BUFFER + 6'd5, dsl_map_pkg::NO_LONG);
+      9'(dsl_regs_pkg::ADDR_PC_BUFFER6):
+        row = stored(dsl_message_pkg::BUFFER + 6'd6, dsl_map_pkg::NO_LONG);
+      9'(dsl_regs_pkg::ADDR_PC_BUFFER7):
+        row = stored(dsl_message_pkg::BUFFER + 6'd7, dsl_map_pkg::NO_LONG);
+      9'(dsl_regs_pkg::ADDR_PC_ADD_H): row = stored(dsl_message_pkg::ADD_H, dsl_map_pkg::NO_LONG);
+      9'(dsl_regs_pkg::ADDR_PC_ADD_L): row = stored(dsl_message_pkg::ADD_L, dsl_map_pkg::NO_LONG);
+      9'(dsl_regs_pkg::ADDR_PC_OFF_H): row = stored(dsl_message_pkg::OFF_H, dsl_map_pkg::NO_LONG);
+      9'(dsl_regs_pkg::ADDR_PC_OFF_L): row = stored(dsl_message_pkg::OFF_L, dsl_map_pkg::NO_LONG);
+      9'(dsl_regs_pkg::ADDR_PC_CTRL):
+        row = register(dsl_map_pkg::PC_CTRL) | store(dsl_map_pkg::STORE_START);
+      9'(dsl_regs_pkg::ADDR_PIPE_S): row = register(dsl_map_pkg::PIPE_S) | OURS;
+      9'(dsl_regs_pkg::ADDR_PIPE_D): row = register(dsl_map_pkg::PIPE_D);
+      9'(dsl_regs_pkg::ADDR_PC_DATA):
+        row = stored(dsl_message_pkg::MAIN_DATA, dsl_map_pkg::NO_SHORT)
+              | store(dsl_map_pkg::STORE_ALIAS);
+      9'(dsl_regs_pkg::ADDR_S_SLAVE_REG_CTRL):
+        row = stored(dsl_message_pkg::SAFE_CTRL, dsl_map_pkg::NO_SHORT) | OURS;
+      9'(dsl_regs_pkg::ADDR_SAFE_CTRL):
+        row = register(dsl_map_pkg::SAFE_CTRL) | SDK | store(dsl_map_pkg::STORE_CTRL);
       9'(dsl_regs_pkg::ADDR_SAFE_SUM): row = later(dsl_map_pkg::NEWEST, 8'd37) | SDK;
-      9'(dsl_regs_pkg::ADDR_ACC_ERR_CNT):                  row = register(dsl_map_pkg::ACC_ERR_CNT);
-      9'(dsl_regs_pkg::ADDR_ACC_ERR_CNT_THRESH): row = register(dsl_map_pkg::THRESH) | SDK;
-      9'(dsl_regs_pkg::ADDR_STATUS2) - 9'd2:               row = copies(SAFE2);
+      9'(dsl_regs_pkg::ADDR_S_PC_DATA):
+        row = stored(dsl_message_pkg::SAFE_DATA, dsl_map_pkg::NO_SHORT);
+      9'(dsl_regs_pkg::ADDR_ACC_ERR_CNT):
+        row = register(dsl_map_pkg::ACC_ERR_CNT) | store(dsl_map_pkg::STORE_LIMIT);
+      9'(dsl_regs_pkg::ADDR_MAXACC):
+        row = stored(dsl_message_pkg::MAXACC, dsl_map_pkg::ALWAYS) | OURS;
+      9'(dsl_regs_pkg::ADDR_EVENT_S):
+        row = register(dsl_map_pkg::EVENT_S) | store(dsl_map_pkg::STORE_S);
+      9'(dsl_regs_pkg::ADDR_MASK_S):
+        row = stored(dsl_message_pkg::MASK_S, dsl_map_pkg::ALWAYS) | store(dsl_map_pkg::STORE_S);
+      9'(dsl_regs_pkg::ADDR_SLAVE_REG_CTRL):
+        row = stored(dsl_message_pkg::MAIN_CTRL, dsl_map_pkg::NO_SHORT)
+              | store(dsl_map_pkg::STORE_ALIAS);
+      9'(dsl_regs_pkg::ADDR_ACC_ERR_CNT_THRESH):
+        row = register(dsl_map_pkg::THRESH) | SDK | store(dsl_map_pkg::STORE_LIMIT);
+      9'(dsl_regs_pkg::ADDR_MAXDEV_THRESH_H): row = constant(8'hFF) | SDK;
+      9'(dsl_regs_pkg::ADDR_MAXDEV_THRESH_L): row = constant(8'hFF) | SDK;
+      9'(dsl_regs_pkg::ADDR_VERSION2): row = copies(SAFE2);
       9'(dsl_regs_pkg::ADDR_STATUS2):                      row = later(SAFE2, 8'd45);
       9'(dsl_regs_pkg::ADDR_VPOS2_4):                      row = later(SAFE2, 8'd44);
       9'(dsl_regs_pkg::ADDR_VPOS2_3):                      row = later(SAFE2, 8'd43);
@@ -96,6 +164,13 @@ module dsl_map (
       9'(dsl_regs_pkg::ADDR_VPOS2_0):                      row = later(SAFE2, 8'd40);
       9'(dsl_regs_pkg::ADDR_VPOSCRC2_H):                   row = later(SAFE2, 8'd47);
       9'(dsl_regs_pkg::ADDR_VPOSCRC2_L):                   row = later(SAFE2, 8'd46);
+      9'(dsl_regs_pkg::ADDR_POSTX): row = register(dsl_map_pkg::POSTX);
+      9'(dsl_regs_pkg::ADDR_ONLINE_D_H): row = register(dsl_map_pkg::ONLINE_D_H);
+      9'(dsl_regs_pkg::ADDR_ONLINE_D_L): row = register(dsl_map_pkg::ONLINE_D_L);
+      9'(dsl_regs_pkg::ADDR_ONLINE_1_H): row = register(dsl_map_pkg::ONLINE_1_H);
+      9'(dsl_regs_pkg::ADDR_ONLINE_1_L): row = register(dsl_map_pkg::ONLINE_1_L);
+      9'(dsl_regs_pkg::ADDR_ONLINE_2_H): row = register(dsl_map_pkg::ONLINE_2_H);
+      9'(dsl_regs_pkg::ADDR_ONLINE_2_L): row = toggles(8'd45);
       // The window.
       9'(dsl_page_regs_pkg::ADDR_STATUS):                  row = register(dsl_map_pkg::STATUS0);
       9'(dsl_page_regs_pkg::ADDR_STATUS) + 9'd1:           row = register(dsl_map_pkg::STATUS1);
@@ -155,12 +230,32 @@ module dsl_map (
       9'(dsl_page_regs_pkg::ADDR_SAFE2_AGE) + 9'd1:        row = later(SAFE2_WORDS, 8'd53);
       9'(dsl_page_regs_pkg::ADDR_SAFE2_AGE) + 9'd2:        row = later(SAFE2_WORDS, 8'd54);
       9'(dsl_page_regs_pkg::ADDR_SAFE2_AGE) + 9'd3:        row = later(SAFE2_WORDS, 8'd55);
-      9'(dsl_page_regs_pkg::ADDR_RESTARTS):                row = register(dsl_map_pkg::RESETS_L);
-      9'(dsl_page_regs_pkg::ADDR_RESTARTS) + 9'd1:         row = register(dsl_map_pkg::RESETS_H);
-      9'(dsl_page_regs_pkg::ADDR_RESTARTS) + 9'd2:         row = register(dsl_map_pkg::ILLEGAL_L);
-      9'(dsl_page_regs_pkg::ADDR_RESTARTS) + 9'd3:         row = register(dsl_map_pkg::ILLEGAL_H);
+      9'(dsl_page_regs_pkg::ADDR_RESTARTS):
+        row = stored(dsl_message_pkg::RESTARTS, dsl_map_pkg::NOBODY);
+      9'(dsl_page_regs_pkg::ADDR_RESTARTS) + 9'd1:
+        row = stored(dsl_message_pkg::RESTARTS + 6'd1, dsl_map_pkg::NOBODY);
+      9'(dsl_page_regs_pkg::ADDR_RESTARTS) + 9'd2:
+        row = stored(dsl_message_pkg::ILLEGAL, dsl_map_pkg::NOBODY);
+      9'(dsl_page_regs_pkg::ADDR_RESTARTS) + 9'd3:
+        row = stored(dsl_message_pkg::ILLEGAL + 6'd1, dsl_map_pkg::NOBODY);
       9'(dsl_page_regs_pkg::ADDR_SAMPLE_PLACE):            row = register(dsl_map_pkg::PLACE_L);
       9'(dsl_page_regs_pkg::ADDR_SAMPLE_PLACE) + 9'd1:     row = register(dsl_map_pkg::PLACE_H);
+      9'(dsl_page_regs_pkg::ADDR_MESSAGES):
+        row = stored(dsl_message_pkg::FOREIGN, dsl_map_pkg::NOBODY);
+      9'(dsl_page_regs_pkg::ADDR_MESSAGES) + 9'd1:
+        row = stored(dsl_message_pkg::FOREIGN + 6'd1, dsl_map_pkg::NOBODY);
+      9'(dsl_page_regs_pkg::ADDR_MESSAGES) + 9'd2:
+        row = stored(dsl_message_pkg::RETRIES, dsl_map_pkg::NOBODY);
+      9'(dsl_page_regs_pkg::ADDR_MESSAGES) + 9'd3:
+        row = stored(dsl_message_pkg::RETRIES + 6'd1, dsl_map_pkg::NOBODY);
+      9'(dsl_page_regs_pkg::ADDR_SAFE_CHECK):
+        row = stored(dsl_message_pkg::SAFE2_BITS, dsl_map_pkg::ALWAYS)
+              | store(dsl_map_pkg::STORE_BITS);
+      9'(dsl_page_regs_pkg::ADDR_SAFE_CHECK) + 9'd1:
+        row = stored(dsl_message_pkg::TOLERANCE, dsl_map_pkg::ALWAYS)
+              | store(dsl_map_pkg::STORE_TOLERANCE);
+      9'(dsl_page_regs_pkg::ADDR_SAFE_STATUS):             row = register(dsl_map_pkg::CHECKS_L);
+      9'(dsl_page_regs_pkg::ADDR_SAFE_STATUS) + 9'd1:      row = register(dsl_map_pkg::CHECKS_H);
       // The page.
       9'(dsl_page_regs_pkg::ADDR_ID): row = constant(dsl_page_regs_pkg::RESET_ID[7:0]);
       9'(dsl_page_regs_pkg::ADDR_ID) + 9'd1: row = constant(dsl_page_regs_pkg::RESET_ID[15:8]);
@@ -176,8 +271,10 @@ module dsl_map (
       9'(dsl_page_regs_pkg::ADDR_FEATURES):                row = register(dsl_map_pkg::FEATURES);
       9'(dsl_page_regs_pkg::ADDR_FEATURES) + 9'd1:
         row = constant(dsl_page_regs_pkg::RESET_FEATURES[15:8]);
-      9'(dsl_page_regs_pkg::ADDR_IRQ_STATUS):              row = register(dsl_map_pkg::IRQ_STATUS);
-      9'(dsl_page_regs_pkg::ADDR_IRQ_ENABLE):              row = register(dsl_map_pkg::IRQ_ENABLE);
+      9'(dsl_page_regs_pkg::ADDR_IRQ_STATUS):
+        row = register(dsl_map_pkg::IRQ_STATUS) | store(dsl_map_pkg::STORE_IRQ);
+      9'(dsl_page_regs_pkg::ADDR_IRQ_ENABLE):
+        row = register(dsl_map_pkg::IRQ_ENABLE) | store(dsl_map_pkg::STORE_IRQ);
       9'(dsl_page_regs_pkg::ADDR_TIME_LOW):                row = register(dsl_map_pkg::TIME) | HOLD;
       9'(dsl_page_regs_pkg::ADDR_TIME_LOW) + 9'd1:         row = register(dsl_map_pkg::TIME);
       9'(dsl_page_regs_pkg::ADDR_TIME_LOW) + 9'd2:         row = register(dsl_map_pkg::TIME);

@@ -95,6 +95,7 @@ package dsl_pkg;
 
   // What a user chooses. docs/dsl.md, "Quirks".
   typedef struct packed {
+    logic       check_answers;
     logic       sdk_map;
     logic       recover;
     logic       strict_code;
@@ -159,8 +160,6 @@ package dsl_pkg;
   typedef struct packed {
     logic [3:0]  state;      // state_e
     logic [2:0]  reason;     // reason_e
-    logic [15:0] resets;     // since the reset; it wraps
-    logic [15:0] illegal;    // words that only the strict check refused; it wraps
     logic [19:0] identity;   // of the encoder
     logic [5:0]  width;      // of its position, less 8
     logic [3:0]  quality;
@@ -170,18 +169,26 @@ package dsl_pkg;
     logic [11:0] place;      // sample of the first bit, five bits behind the point
   } line_status_t;
 
-  // EVENT_H and EVENT_L.
+  // What safe channels and VSYNC did in the last vertical frame: bits of SAFE_STATUS.
   typedef struct packed {
-    logic sum;
-    logic sce;
-    logic pos;
-    logic vpos;
-    logic prst;
-    logic qmlw;
-  } events_t;
+    logic vsync_late;        // VSYNC of the vertical frame before came with the first frame
+    logic vsync_missing;     // ... did not come
+    logic vsync_early;
+    logic code2;             // an error of the code
+    logic code1;
+    logic crc2;              // a wrong CRC without an error of the code
+    logic crc1;
+    logic marked2;           // the encoder says that it has no position
+    logic marked1;
+    logic fix2;              // of a good STATUS2: its lowest bits are not 11100
+    logic err2;
+    logic test2;
+    logic tog2;              // ... its toggle has not changed with each vertical frame
+  } safe_checks_t;
 
   // What dsl_vertical tells dsl_position and the registers.
   typedef struct packed {
+    safe_checks_t checks;
     logic       acceleration_good;    // of this frame
     logic       acceleration_marked;  // the encoder says that it has none
     logic [4:0] missing;              // accelerations, one after another
@@ -190,5 +197,76 @@ package dsl_pkg;
     logic       safe2_valid;
     logic       safe2_error;
   } told_t;
+
+  // What dsl_message tells the registers.
+  typedef struct packed {
+    logic long_runs;         // from its start to its end
+    logic main_runs;         // the short message of the main host
+    logic safe_runs;         // ... of the safe host
+    logic resets;            // MRST waits for the encoder
+    logic failed;            // ANS, up to the next start of a long message
+    logic renewed;           // MIN, up to the next start of any message
+  } messages_t;
+
+  // Events of messages, one clock each.
+  typedef struct packed {
+    logic min;
+    logic ans;
+    logic frel;
+    logic fres;              // of the main host
+    logic safe_fres;
+  } message_events_t;
+
+  // Writes of the host to dsl_events, one clock each.
+  typedef struct packed {
+    logic event_h;
+    logic event_l;
+    logic event_s;
+    logic mask_h;
+    logic mask_l;
+    logic mask_s;
+    logic mask_sum;
+    logic irq_status;
+    logic irq_enable;
+  } event_stores_t;
+
+  // What the host reads of dsl_events.
+  typedef struct packed {
+    logic [7:0] event_h;
+    logic [7:0] event_l;
+    logic [7:0] event_s;
+    logic [7:0] online_d_h;
+    logic [7:0] online_d_l;
+    logic [7:0] online_1_h;
+    logic [7:0] online_1_l;
+    logic [7:0] online_2_h;
+    logic       low;         // QMLW, with a link
+    logic [1:0] postx;
+    logic [6:0] irq_status;
+    logic [6:0] irq_enable;
+  } event_bytes_t;
+
+  // The five interrupts of the published master, one clock each.
+  typedef struct packed {
+    logic safe_event;        // SINT rises
+    logic frame;             // a running frame has its record
+    logic safe2;             // a good safe position 2 has come
+    logic safe1;
+    logic main_event;        // INT rises
+  } causes_t;
+
+  // What is counted, one clock each.
+  typedef struct packed {
+    logic restart;           // of the link
+    logic illegal;           // a word that only the strict check refused
+  } counts_t;
+
+  // Starts of messages, one clock each.
+  typedef struct packed {
+    logic resets;            // MRST
+    logic starts_long;
+    logic starts_main;
+    logic starts_safe;
+  } orders_t;
 
 endpackage

@@ -14,12 +14,17 @@
 // Record: a byte at a time, record_data_o goes to record_address_o with record_write_o. The lowest
 // byte of a number comes first; dsl_program has its order, eight addresses a value. An age is all
 // ones if none has come. Each tell_o has a whole record before it, so a reader needs banks that
-// change with it (dsl_record). Status: byte 0 as STATUS, with the errors of the two safe channels
-// in bits 6 and 7; byte 1 quality and delay; byte 2 the state of the link; byte 3 the reason. It is
-// that of the frame's end. A link that is over makes a record more, without young safe positions.
+// change with it (dsl_record): with record_busy_i nothing is written, and the work waits.
+// Status: byte 0 as STATUS, with the errors of the two safe channels in bits 6 and 7; byte 1 quality
+// and delay; byte 2 the state of the link; byte 3 the reason. It is that of the frame's end. A link
+// that is over makes a record more, without young safe positions.
 //
 // time_i: the byte of the frame's time; time_next_o asks for the next one, eight times a frame, the
 // lowest one first. The first one is taken 5 clocks or more behind the second word.
+// stale_o: with the last vertical frame safe position 1 and the fast one should have been the same,
+// and were not. mismatch_o: it had two good safe positions, which differ by more than tolerance_i
+// in the safe2_bits_i that the second one has (more than the position has are as many as it has);
+// it is right from tell_o of the frame behind it on.
 // Misuse: a frame that ends before tell_o of the frame before is left out. A width of more than 40
 // bits is a position without bits.
 // Source: docs/dsl.md, "Position".
@@ -31,20 +36,26 @@ module dsl_position (
   input  dsl_pkg::answer_t      answer_i,
   input  dsl_pkg::told_t        told_i,
   input  dsl_pkg::line_status_t status_i,
+  input  logic [7:0]            safe2_bits_i,      // of safe position 2; 0: it is not compared
+  input  logic [7:0]            tolerance_i,       // of the comparison, in its steps
   input  logic [7:0]            time_i,
   output logic                  time_next_o,
   output logic                  lost_o,            // POS
+  output logic                  stale_o,           // safe and fast position did not agree
+  output logic                  mismatch_o,        // the two safe positions do not agree
   // record
   output logic                  record_write_o,
   output logic [5:0]            record_address_o,
   output logic [7:0]            record_data_o,
-  output logic                  tell_o
+  output logic                  tell_o,
+  input  logic                  record_busy_i
 );
 
   localparam logic [2:0] VERTICAL   = 3'd0;
   localparam logic [2:0] HIGH_WORD  = 3'd3;
   localparam logic [2:0] LOW_WORD   = 3'd4;
   localparam logic [2:0] SECONDARY  = 3'd5;
+  localparam logic [2:0] FIRST_PLACE = 3'd0;
   localparam logic [2:0] LAST_PLACE = 3'd7;
   localparam int unsigned SIGNED    = 10;    // bit of the identity
 
@@ -56,7 +67,7 @@ module dsl_position (
   dsl_program_pkg::sum_t        sum;
   dsl_program_pkg::jump_t       jump;
   dsl_program_pkg::conditions_t conditions;
-  logic [14:0]                  condition_bits;
+  logic [15:0]                  condition_bits;
   logic                         is_sum, set, tell;
   logic                         taken, next;
 
@@ -70,12 +81,14 @@ module dsl_position (
   logic       lowest_q;       // the result is the first one of the row
   logic       last_q;         // ... the last one
   logic       fill, fill_q;
+  logic [1:0] source, change;  // as the row has them, or of a sign
   logic [7:0] memory;
   logic [7:0] in;
   logic [7:0] first_d, first_q;
   logic [7:0] second;
   logic       carry_in, carry;
   logic [7:0] total;
+  logic       unused;
   logic       write;
   logic       zero_q, carry_q, negative_q;
 
@@ -84,6 +97,9 @@ module dsl_position (
   logic [4:0] word_to;
   logic [2:0] word_index;
   logic       frame_q, begun_q, vertical_q, ended_q;
+  logic       check_q;        // the frame is the one behind a vertical frame
+  logic       mismatch_q;
+  logic       unlike_q;
   logic       ran_q;          // the record is one of a running frame
   logic       shown_q;        // a record shows a link
   logic [2:0] align_q;        // dsl_program_pkg::align_e
@@ -92,7 +108,7 @@ module dsl_position (
   logic       stale;
   logic [7:0] status0;
 
-  assign run = ready_q && !stores;
+  assign run = ready_q && !stores && !record_busy_i;
 
   // ---- Rows -------------------------------------------------------------------------------------
 
@@ -109,6 +125,8 @@ module dsl_position (
   assign set    = sum.kind == dsl_program_pkg::SET;
   assign tell   = sum.kind == dsl_program_pkg::TELL;
 
+  assign conditions.check     = check_q && told_i.safe1_valid && told_i.safe2_valid
+                             && safe2_bits_i != 8'd0;
   assign conditions.over      = shown_q && !answer_i.linked;
   assign conditions.is_signed = status_i.identity[SIGNED];
   assign conditions.in_state  = align_q == jump.state;
@@ -166,8 +184,10 @@ module dsl_position (
 
   always_comb begin
     in = time_i;
-    if (sum.second[1:0] == dsl_program_pkg::IN_WIDTH) in = {1'b0, {1'b0, status_i.width} + 7'd8};
-    if (sum.second[1:0] == dsl_program_pkg::IN_STATUS) begin
+    if (sum.second[2:0] == dsl_program_pkg::IN_WIDTH) in = {1'b0, {1'b0, status_i.width} + 7'd8};
+    if (sum.second[2:0] == dsl_program_pkg::IN_BITS) in = safe2_bits_i;
+    if (sum.second[2:0] == dsl_program_pkg::IN_TOLERANCE) in = tolerance_i;
+    if (sum.second[2:0] == dsl_program_pkg::IN_STATUS) begin
       case (index_q[1:0])
         2'd0:    in = status0;
         2'd1:    in = {status_i.place[11:8], status_i.quality};
@@ -177,26 +197,27 @@ module dsl_position (
     end
   end
 
-  assign fill = sum.widen[1] && index_q >= {1'b0, sum.widen};
+  // Behind its highest byte a value has its sign.
+  assign fill   = sum.widen[1] && index_q >= {1'b0, sum.widen};
+  assign source = fill ? {1'b1, negative_q} : sum.source;    // ZEROS, ONES
+  assign change = sum.change | {2{fill_q}};
 
   always_comb begin
-    case (sum.source)
+    case (source)
       dsl_program_pkg::MEMORY: first_d = memory;
       dsl_program_pkg::INPUT:  first_d = in;
       dsl_program_pkg::ZEROS:  first_d = 8'h00;
       default:                 first_d = 8'hFF;
     endcase
-    if (fill) first_d = {8{negative_q}};
   end
 
   always_comb begin
-    case (sum.change)
+    case (change)
       dsl_program_pkg::PLAIN:    second = memory;
       dsl_program_pkg::INVERTED: second = ~memory;
       dsl_program_pkg::ANDED:    second = memory | ~first_q;
       default:                   second = 8'h00;
     endcase
-    if (fill_q) second = 8'h00;
   end
 
   always_comb begin
@@ -205,7 +226,8 @@ module dsl_position (
     if (fill_q) carry_in = 1'b0;
   end
 
-  assign {carry, total} = {1'b0, first_q} + {1'b0, second} + {8'd0, carry_in};
+  // One chain: the carry enters by a bit below the lowest one.
+  assign {carry, total, unused} = {1'b0, first_q, 1'b1} + {1'b0, second, carry_in};
   assign result_to      = {sum.to, to_q[2] | sum.upper, to_q[1:0]};
   assign write          = run && result_q && (carry || !sum.fits);
   assign to_d           = index_q - {2'd0, sum.down};
@@ -274,6 +296,9 @@ module dsl_position (
       shown_q    <= 1'b0;
       ended_q    <= 1'b0;
       vertical_q <= 1'b0;
+      check_q    <= 1'b0;
+      mismatch_q <= 1'b0;
+      unlike_q   <= 1'b0;
       stale_q    <= '0;
       align_q    <= dsl_program_pkg::FIRST;
       certain_q  <= 1'b0;
@@ -286,18 +311,30 @@ module dsl_position (
       shown_q <= answer_i.linked || frame_q || (shown_q && !(tell_o && jump.unused[0]));
       // told_i is right a clock later.
       ended_q <= answer_i.ends && answer_i.running && answer_i.place == LAST_PLACE;
-      if (answer_i.ends) vertical_q <= answer_i.running && answer_i.place == LAST_PLACE;
+      if (answer_i.ends) begin
+        vertical_q <= answer_i.running && answer_i.place == LAST_PLACE;
+        check_q    <= answer_i.running && answer_i.place == FIRST_PLACE;
+      end
+      if (ended_q || answer_i.begins)               unlike_q <= 1'b0;
+      else if (run && set && jump.unused[0])        unlike_q <= 1'b1;
+      if (answer_i.begins || (answer_i.ends && answer_i.place == FIRST_PLACE)) begin
+        mismatch_q <= 1'b0;
+      end else if (run && set && jump.state == dsl_program_pkg::MISMATCH) begin
+        mismatch_q <= 1'b1;
+      end
       if (answer_i.begins) stale_q <= '0;
       else if (ended_q)    stale_q <= told_i.safe1_valid ? 2'd0 : stale_d;
       certain_q <= !lost_o;
       if (!answer_i.linked) align_q <= dsl_program_pkg::FIRST;
-      else if (run && set)  align_q <= jump.state;
+      else if (run && set && jump.state != dsl_program_pkg::MISMATCH) align_q <= jump.state;
     end
   end
 
   assign time_next_o      = run && is_sum && second_q && sum.source == dsl_program_pkg::INPUT
-                         && sum.second[1:0] == dsl_program_pkg::IN_TIME;
+                         && sum.second[2:0] == dsl_program_pkg::IN_TIME;
   assign lost_o           = align_q != dsl_program_pkg::ALIGNED || !(certain_q || tell_o);
+  assign stale_o          = unlike_q;
+  assign mismatch_o       = mismatch_q;
   assign record_write_o   = write && result_to[7:6] == 2'd0;
   assign record_address_o = result_to[5:0];
   assign record_data_o    = total;

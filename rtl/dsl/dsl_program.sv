@@ -44,32 +44,38 @@ module dsl_program (
   localparam logic [4:0] SINCE   = 5'd28;  // frames since the loss, with its own
   localparam logic [4:0] BY      = 5'd29;  // ... up to the end of its vertical frame
   localparam logic [4:0] NOWHERE = 5'd30;  // only the flags count
+  localparam logic [4:0] EIGHT   = 5'd31;
 
   // Added to a SUM.
   localparam logic [31:0] CARRIED = 32'h80, PLUS_1 = 32'h40, WIDEN_2 = 32'h20, WIDEN_3 = 32'h30,
                           UPPER = 32'h08, DOWN = 32'h04, FITS = 32'h02, HOLD = 32'h01;
 
+  // Added to a SET: safe and fast position should have been the same.
+  localparam logic [31:0] STALE_NOW = 32'h1;
+
   // Conditions: the bits of dsl_program_pkg::conditions_t.
   localparam logic [3:0] ZERO = 4'd0, CARRY = 4'd1, NEGATIVE = 4'd2, ALWAYS = 4'd3, FRAME = 4'd4,
                          BEGUN = 4'd5, GOOD = 4'd6, VERTICAL = 4'd7, NEW1 = 4'd8, NEW2 = 4'd9,
                          STALE = 4'd10, RECOVER = 4'd11, IN_STATE = 4'd12, SIGNED = 4'd13,
-                         OVER = 4'd14;
+                         OVER = 4'd14, CHECK = 4'd15;
 
   // States: dsl_program_pkg::align_e; inputs: dsl_program_pkg::input_e.
   localparam logic [2:0] FIRST = 3'd0, SECOND = 3'd1, THIRD = 3'd2, FOURTH = 3'd3, ALIGNED = 3'd4,
-                         LOST = 3'd5, MENDING = 3'd6;
-  localparam logic [4:0] IN_TIME = 5'd0, IN_STATUS = 5'd1, IN_WIDTH = 5'd2;
+                         LOST = 3'd5, MENDING = 3'd6, MISMATCH = 3'd7;
+  localparam logic [4:0] IN_TIME = 5'd0, IN_STATUS = 5'd1, IN_WIDTH = 5'd2, IN_BITS = 5'd3,
+                         IN_TOLERANCE = 5'd4;
 
   // Sections.
-  localparam logic [7:0] POWER = 8'd0, LINK = POWER + 8'd2, BEGIN = LINK + 8'd32,
+  localparam logic [7:0] POWER = 8'd0, LINK = POWER + 8'd2, BEGIN = LINK + 8'd36,
                          GUESS = BEGIN + 8'd4, KNOWN = GUESS + 8'd11, SCALE = KNOWN + 8'd1,
                          BOUND = SCALE + 8'd4, MISSED = BOUND + 8'd7, ADD = MISSED + 8'd5,
                          WAIT = ADD + 8'd18, SAFE = WAIT + 8'd2, PLACE = SAFE + 8'd17,
                          PAUSE = PLACE + 8'd3, WITHOUT = PAUSE + 8'd1, FAIL = WITHOUT + 8'd2,
-                         KEEP = FAIL + 8'd1, OFF = KEEP + 8'd3, CORRECT = OFF + 8'd6,
-                         MEND = CORRECT + 8'd9, MENDED = MEND + 8'd22, ENDED = MENDED + 8'd12,
-                         SHOW = ENDED + 8'd3, STATUS = SHOW + 8'd5, IDLE = STATUS + 8'd2,
-                         CLOSE = IDLE + 8'd4;
+                         UNLIKE = FAIL + 8'd1, KEEP = UNLIKE + 8'd1, OFF = KEEP + 8'd3,
+                         CORRECT = OFF + 8'd6, MEND = CORRECT + 8'd9, MENDED = MEND + 8'd22,
+                         ENDED = MENDED + 8'd12, COMPARE = ENDED + 8'd3, SHIFT = COMPARE + 8'd8,
+                         PART = SHIFT + 8'd7, AGREE = PART + 8'd6, SHOW = AGREE + 8'd9,
+                         STATUS = SHOW + 8'd5, IDLE = STATUS + 8'd2, CLOSE = IDLE + 8'd4;
 
   // Rows. The last twelve bits of a sum are source, change and carry, and six that can be added.
   function automatic logic [31:0] plus(input logic [4:0] to, first, second, input logic [2:0] last);
@@ -164,7 +170,11 @@ module dsl_program (
       LINK + 8'd28:     row = jump_if(ALWAYS, LINK + 8'd25);
       LINK + 8'd29:     row = plus(MASK, TOP, TOP, 3'd7);
       LINK + 8'd30:     row = less_1(MASK, MASK, 3'd7);
-      LINK + 8'd31:     row = jump_if(ALWAYS, STATUS);
+      LINK + 8'd31:     row = zeros(EIGHT, 3'd0) | PLUS_1;
+      LINK + 8'd32:     row = plus(EIGHT, EIGHT, EIGHT, 3'd0);
+      LINK + 8'd33:     row = plus(EIGHT, EIGHT, EIGHT, 3'd0);
+      LINK + 8'd34:     row = plus(EIGHT, EIGHT, EIGHT, 3'd0);
+      LINK + 8'd35:     row = jump_if(ALWAYS, STATUS);
       // The acceleration of a running frame is there.
       BEGIN:            row = take(TIME, IN_TIME, 3'd7);
       BEGIN + 8'd1:     row = copy(COUNT, COUNT, 3'd3) | PLUS_1;
@@ -224,7 +234,7 @@ module dsl_program (
       ADD + 8'd17:      row = copy(SAFE2, SAFE2, 3'd7);
       // The frame ends.
       WAIT:             row = jump_if(FRAME, WAIT);
-      WAIT + 8'd1:      row = jump_unless(VERTICAL, SHOW);
+      WAIT + 8'd1:      row = jump_unless(VERTICAL, COMPARE);
       // A vertical frame ends.
       SAFE:             row = jump_unless(NEW1, SAFE + 8'd3);
       SAFE + 8'd1:      row = copy(SAFE1, BYTES1, 3'd7);
@@ -241,7 +251,7 @@ module dsl_program (
       SAFE + 8'd12:     row = jump_in(FIRST, PLACE);
       SAFE + 8'd13:     row = jump_in(THIRD, PAUSE);
       SAFE + 8'd14:     row = minus(NOWHERE, WRONG, FAST, 3'd4);
-      SAFE + 8'd15:     row = jump_unless(ZERO, FAIL);
+      SAFE + 8'd15:     row = jump_unless(ZERO, UNLIKE);
       SAFE + 8'd16:     row = set(ALIGNED, ENDED);
       PLACE:            row = copy(FAST, WRONG, 3'd4);  // the position is set
       PLACE + 8'd1:     row = copy(KEPT, WRONG, 3'd4);
@@ -250,6 +260,7 @@ module dsl_program (
       WITHOUT:          row = jump_in(FOURTH, ENDED);  // there is no safe position
       WITHOUT + 8'd1:   row = jump_in(ALIGNED, ENDED);
       FAIL:             row = set(FIRST, ENDED);  // alignment begins anew
+      UNLIKE:           row = set(FIRST, ENDED) | STALE_NOW;
       // The vertical frame of a loss ends.
       KEEP:             row = copy(KEPT, FAST, 3'd4);
       KEEP + 8'd1:      row = copy(BY, SINCE, 3'd0);
@@ -311,6 +322,39 @@ module dsl_program (
       ENDED:            row = zeros(MOVED, 3'd4);
       ENDED + 8'd1:     row = jump_unless(STALE, SHOW);
       ENDED + 8'd2:     row = set(FIRST, SHOW);
+      // The frame behind a vertical frame: position 1 is shifted right to the bits of position 2,
+      // and so is the mask. LEFT is how far, less 8 from PART on.
+      COMPARE:          row = jump_unless(CHECK, SHOW);
+      COMPARE + 8'd1:   row = take(LEFT, IN_WIDTH, 3'd0);
+      COMPARE + 8'd2:   row = take(REST, IN_BITS, 3'd0);
+      COMPARE + 8'd3:   row = minus(LEFT, LEFT, REST, 3'd0);
+      COMPARE + 8'd4:   row = jump_if(CARRY, COMPARE + 8'd6);
+      COMPARE + 8'd5:   row = zeros(LEFT, 3'd0);
+      COMPARE + 8'd6:   row = masked(WRONG, SAFE1, MASK, 3'd5);
+      COMPARE + 8'd7:   row = copy(EACH, MASK, 3'd5);
+      SHIFT:            row = copy(NOWHERE, LEFT, 3'd0);
+      SHIFT + 8'd1:     row = jump_if(ZERO, AGREE);
+      SHIFT + 8'd2:     row = minus(LEFT, LEFT, EIGHT, 3'd0);
+      SHIFT + 8'd3:     row = jump_unless(CARRY, PART);
+      SHIFT + 8'd4:     row = copy(WRONG, WRONG, 3'd5) | DOWN;
+      SHIFT + 8'd5:     row = copy(EACH, EACH, 3'd5) | DOWN;
+      SHIFT + 8'd6:     row = jump_if(ALWAYS, SHIFT);
+      PART:             row = plus(WRONG, WRONG, WRONG, 3'd5);
+      PART + 8'd1:      row = plus(EACH, EACH, EACH, 3'd5);
+      PART + 8'd2:      row = copy(LEFT, LEFT, 3'd0) | PLUS_1;
+      PART + 8'd3:      row = jump_unless(ZERO, PART);
+      PART + 8'd4:      row = copy(WRONG, WRONG, 3'd5) | DOWN;
+      PART + 8'd5:      row = copy(EACH, EACH, 3'd5) | DOWN;
+      // Position 2 has come inverted. Both may differ by the tolerance, modulo their bits.
+      AGREE:            row = zeros(REST, 3'd4);
+      AGREE + 8'd1:     row = take(REST, IN_TOLERANCE, 3'd0);
+      AGREE + 8'd2:     row = plus(WRONG, WRONG, SAFE2, 3'd4) | PLUS_1;
+      AGREE + 8'd3:     row = plus(WRONG, WRONG, REST, 3'd4);
+      AGREE + 8'd4:     row = masked(WRONG, WRONG, EACH, 3'd4);
+      AGREE + 8'd5:     row = plus(REST, REST, REST, 3'd4);
+      AGREE + 8'd6:     row = minus(NOWHERE, REST, WRONG, 3'd4);
+      AGREE + 8'd7:     row = jump_if(CARRY, SHOW);
+      AGREE + 8'd8:     row = set(MISMATCH, SHOW);
       // The position as 64 bits, by its sign if it has one.
       SHOW:             row = copy(WIDE, FAST, 3'd7);
       SHOW + 8'd1:      row = jump_unless(SIGNED, STATUS);

@@ -52,10 +52,12 @@ package dsl_program_pkg;
     CARRIED  = 2'd2         // the one that the row before has left
   } carry_e;
 
-  typedef enum logic [1:0] {
-    IN_TIME   = 2'd0,       // of the frame's edge, eight bytes
-    IN_STATUS = 2'd1,       // four bytes
-    IN_WIDTH  = 2'd2        // of the position
+  typedef enum logic [2:0] {
+    IN_TIME      = 3'd0,    // of the frame's edge, eight bytes
+    IN_STATUS    = 3'd1,    // four bytes
+    IN_WIDTH     = 3'd2,    // of the position
+    IN_BITS      = 3'd3,    // of safe position 2
+    IN_TOLERANCE = 3'd4     // in its steps
   } input_e;
 
   typedef struct packed {
@@ -68,6 +70,7 @@ package dsl_program_pkg;
   } jump_t;
 
   typedef struct packed {
+    logic check;            // the last vertical frame has two safe positions to be compared
     logic over;             // a link is that the newest record still shows
     logic is_signed;        // the position is
     logic in_state;         // the alignment is in the state of the row
@@ -93,7 +96,8 @@ package dsl_program_pkg;
     FOURTH  = 3'd3,         // they have to agree
     ALIGNED = 3'd4,         // ... and do
     LOST    = 3'd5,         // an acceleration is missing
-    MENDING = 3'd6          // the next safe position will tell it
+    MENDING = 3'd6,         // the next safe position will tell it
+    MISMATCH = 3'd7         // no state: the two safe positions do not agree
   } align_e;
 
 endpackage

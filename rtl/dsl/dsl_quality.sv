@@ -29,7 +29,7 @@ module dsl_quality (
   localparam logic [6:0] HIGHEST     = 7'd15;
   localparam logic [3:0] LOW         = 4'd14;
 
-  logic [3:0] down;               // of the event
+  logic [6:0] step;               // of the event, signed
   logic [6:0] sum_q;              // of the frame so far, signed
   logic [3:0] value_q;
   logic       negative;
@@ -41,15 +41,15 @@ module dsl_quality (
 
   always_comb begin
     unique case (event_i)
-      dsl_pkg::VSYNC_EARLY:   down = document || firmware ? 4'd4 : 4'd6;
-      dsl_pkg::VSYNC_MISSING: down = document ? 4'd8 : firmware ? 4'd6 : 4'd4;
-      dsl_pkg::RSSI_LOW:      down = document ? 4'd8 : 4'd4;
-      dsl_pkg::CODE_ERROR:    down = 4'd1;
-      dsl_pkg::ACCELERATION:  down = document ? 4'd1 : 4'd2;
-      dsl_pkg::SPECIAL:       down = 4'd2;
-      dsl_pkg::SAFE1_ERROR:   down = document ? 4'd8 : 4'd6;
-      dsl_pkg::SAFE2_ERROR:   down = 4'd8;
-      default:                down = 4'd15;     // GOOD: one up
+      dsl_pkg::VSYNC_EARLY:   step = document || firmware ? -7'd4 : -7'd6;
+      dsl_pkg::VSYNC_MISSING: step = document ? -7'd8 : firmware ? -7'd6 : -7'd4;
+      dsl_pkg::RSSI_LOW:      step = document ? -7'd8 : -7'd4;
+      dsl_pkg::CODE_ERROR:    step = -7'd1;
+      dsl_pkg::ACCELERATION:  step = document ? -7'd1 : -7'd2;
+      dsl_pkg::SPECIAL:       step = -7'd2;
+      dsl_pkg::SAFE1_ERROR:   step = document ? -7'd8 : -7'd6;
+      dsl_pkg::SAFE2_ERROR:   step = -7'd8;
+      default:                step = 7'd1;      // GOOD
     endcase
   end
 
@@ -61,10 +61,10 @@ module dsl_quality (
       sum_q   <= FIRST_VALUE;
       value_q <= FIRST_VALUE[3:0];
     end else if (end_i) begin
-      if (!negative && sum_q > HIGHEST) sum_q <= HIGHEST;
+      if (!negative && sum_q[5:4] != 2'd0) sum_q <= HIGHEST;
       value_q <= negative ? 4'd0 : sum_q[5:4] != 2'd0 ? HIGHEST[3:0] : sum_q[3:0];
     end else if (add_i) begin
-      sum_q <= down == 4'd15 ? sum_q + 7'd1 : sum_q - {3'd0, down};
+      sum_q <= sum_q + step;
     end
   end
 

@@ -51,7 +51,7 @@ module dsl_rx (
   logic       valid_q;        // a bit of the window
   logic       answer_q;       // ... of the answer
   logic       bit_q;
-  logic [5:0] count_q;        // bits of the answer
+  logic [5:0] count_q;        // bits of the answer that follow this one
   logic [3:0] in_word_q;
   logic [2:0] number_q;
   logic       word_q;
@@ -76,7 +76,7 @@ module dsl_rx (
       valid_q   <= 1'b0;
       answer_q  <= 1'b0;
       bit_q     <= 1'b0;
-      count_q   <= '0;
+      count_q   <= dsl_pkg::LAST_BIT;
       in_word_q <= '0;
       number_q  <= '0;
       word_q    <= 1'b0;
@@ -93,20 +93,20 @@ module dsl_rx (
       if (last) bit_q <= stream_i.levels[{1'b0, ~eighth_i}];
       if (begins) begin
         inside_q  <= 1'b0;
-        count_q   <= '0;
+        count_q   <= dsl_pkg::LAST_BIT;
         in_word_q <= '0;
         number_q  <= '0;
         same_q    <= 1'b1;
         least_q   <= BEST;
       end else begin
         if (last && first)                                   inside_q <= 1'b1;
-        else if (answer_q && count_q == dsl_pkg::LAST_BIT)   inside_q <= 1'b0;
+        else if (answer_q && count_q == 6'd0)                inside_q <= 1'b0;
         if (answer_q) begin
-          count_q   <= count_q + 6'd1;
+          count_q   <= count_q - 6'd1;
           line_q    <= {line_q[8:0], bit_q};
           in_word_q <= in_word_q + 4'd1;
           if (in_word_q == WORD_LAST) in_word_q <= number_q == LOW_WORD ? SKIP : 4'd0;
-          if (bit_q != dsl_pkg::TEST_PATTERN[dsl_pkg::LAST_BIT - count_q]) same_q <= 1'b0;
+          if (bit_q != dsl_pkg::TEST_PATTERN[count_q]) same_q <= 1'b0;
         end
         if (word_q) number_q <= number_q + 3'd1;
         if (worse)  least_q  <= run_q;

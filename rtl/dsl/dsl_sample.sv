@@ -38,12 +38,10 @@ module dsl_sample (
 );
 
   // Samples from the one behind the place on.
-  localparam logic [9:0]  RANGE     = 10'd484; // ... to the end
   localparam logic [6:0]  NEAR_END  = 7'd60;   // eighths: the place moves by less than half of one
   localparam logic [6:0]  TOO_LATE  = 7'h70;   // no answer fits here, nor eight samples earlier
   localparam logic [6:0]  FIRST_FIT = 7'd4;
   localparam logic [6:0]  LAST_FIT  = 7'd91;
-  localparam logic [6:0]  FEWEST    = 7'd8;
   localparam logic [3:0]  SUM_LAST  = 4'd8;
   localparam logic [3:0]  DIV_LAST  = 4'd7;
 
@@ -82,7 +80,7 @@ module dsl_sample (
 
   assign first_o  = start_i && !measured_q;
   assign zero_now = stream_i.valid && first_o && !found_q && !stream_i.levels[0];
-  assign late     = stream_i.number >= {3'd0, TOO_LATE};
+  assign late     = stream_i.number[9:7] != 3'd0 || stream_i.number[6:4] == TOO_LATE[6:4];
   assign away     = stream_i.number - {3'd0, place_q[11:5]};
   assign near_end = first_o && found_q && near_end_q;
   assign ranged   = first_o ? zero_now || (found_q && inside_q) : inside_q;
@@ -128,16 +126,24 @@ module dsl_sample (
   logic       less, unused;
   logic [7:0] offset;                // of the lowest distance and the place's part
   logic [8:0] move;
+  logic       unused0, unused1;      // one chain each: a bit below the lowest one brings the carry
+  logic       unused2;
+  logic [12:0] added;
   logic       rounds;                // towards 0
-  assign counted = count_q + (state_q == COUNT ? 7'd0 : rd_data[6:0])
-                 + {6'd0, state_q == COUNT ? counts : at_end};
-  assign low     = place_q[12] || place_q[11:5] < FIRST_FIT;
-  assign high    = place_q[11:5] > LAST_FIT;
+  assign {counted, unused0} = {count_q, 1'b1}
+                          + {state_q == COUNT ? 7'd0 : rd_data[6:0],
+                             state_q == COUNT ? counts : at_end};
+  // A comparison is a chain of carries, so those with a constant stand here as what they are: the
+  // place is below FIRST_FIT, above LAST_FIT.
+  assign low     = place_q[12] || place_q[11:7] == 5'd0;
+  assign high    = place_q[11] && (place_q[10] || place_q[9:7] == 3'b111);
   assign sum     = {rest_q, quot_q[7:5]} + {2'd0, count_q};
   assign {less, unused, reduced} = {1'b0, rest_q, quot_q[7]} - {1'b0, count_q};
   assign offset  = {!part, part, part, place_q[4:0]};
   assign move    = quot_q;
+  assign unused2 = ^away[1:0];
   assign rounds  = move[8] && rest_q != 6'd0;
+  assign {added, unused1} = {place_q, 1'b1} + {{4{move[8]}}, move, rounds};
 
   always_comb begin
     state_d = state_q;
@@ -178,7 +184,7 @@ module dsl_sample (
         rest_d = less ? {rest_q[4:0], quot_q[7]} : reduced;
         quot_d = {1'b0, quot_q[6:0], !less};
         if (step_q == DIV_LAST) state_d = MOVE;
-        if (count_q < FEWEST) state_d = LIMIT;
+        if (count_q[6:3] == 4'd0) state_d = LIMIT;    // fewer than 8
       end
       MOVE: begin
         quot_d  = quot_q - {1'b0, offset};
@@ -193,7 +199,7 @@ module dsl_sample (
         state_d = ADD;
       end
       ADD: begin
-        place_d = place_q + {{4{move[8]}}, move} + 13'(rounds);
+        place_d = added;
         state_d = LIMIT;
       end
       default: begin
@@ -235,8 +241,10 @@ module dsl_sample (
       found_q    <= found_d;
       again_q    <= again_d;
       near_end_q <= !zero_now && away[9:3] == NEAR_END;
-      inside_q   <= zero_now || (first_o ? away[9:3] <= NEAR_END
-                                         : away < RANGE || away[9:2] == 8'hFF);
+      // Up to NEAR_END, all of its eighth or half of it; in front of the place three samples more.
+      inside_q   <= zero_now || (!first_o && away[9:2] == 8'hFF)
+                 || (!away[9] && !(away[8:5] == NEAR_END[5:2]
+                                   && (away[4:3] != 2'd0 || (away[2] && !first_o))));
       count_q    <= count_d;
       rest_q     <= rest_d;
       quot_q     <= quot_d;

@@ -35,6 +35,7 @@ module dsl_time (
   logic        carry_q;
   logic [7:0]  sum;
   logic        carry;
+  logic        unused;
   logic        last;
   logic [2:0]  phase_q;       // of the edge
   logic        waits_q;       // ... it has been in this turn
@@ -44,8 +45,9 @@ module dsl_time (
   logic [7:0]  edge_data;
 
   assign last         = byte_q == LAST_BYTE;
-  assign {carry, sum} = {1'b0, before_q[7:0]} + {1'b0, byte_q == 3'd0 ? TURN : 8'd0}
-                      + {8'd0, carry_q};
+  // One chain: the carry enters by a bit below the lowest one.
+  assign {carry, sum, unused} = {1'b0, before_q[7:0], 1'b1}
+                             + {1'b0, byte_q == 3'd0 ? TURN : 8'd0, carry_q};
 
   always_comb begin
     edge_data = before_q[7:0];

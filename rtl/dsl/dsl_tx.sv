@@ -14,10 +14,14 @@
 // end of each block of stuffing and at the end of a gap. While the driver is off in a gap, gap_i
 // keeps it off. A gap is what a reset begins with.
 // EXTRA: extra ones, then, if rest is not 0, a bit that is high for rest eighths.
+// A free run (extra, rest and added are 0) keeps the counter between -2 and 0: three bits are
+// enough.
 // Misuse: a plan that changes within its frame mixes two frames.
 // Source: docs/dsl.md, "The protocol".
 
-module dsl_tx (
+module dsl_tx #(
+  parameter int unsigned DisparityW = 8    // 3 to 8 bits of the disparity counter
+) (
   input  logic           clk_i,
   input  logic           rst_ni,
   input  logic           slot_i,
@@ -58,7 +62,12 @@ module dsl_tx (
   logic [9:0] bits_d, bits_q;             // of the field, the next one first
   logic [4:0] blocks_d, blocks_q;         // to come
   logic       fresh_d, fresh_q;           // the first bit of a field
-  logic [7:0] disparity_d, disparity_q;   // signed
+  logic [DisparityW-1:0] disparity_d, disparity_q;   // signed
+  logic [7:0] disparity;                  // with all of its bits
+  logic [7:0] moves;                      // of the counter, at the end of a field
+  logic [7:0] moved;
+  logic       unused;
+  logic       clears;                     // it begins anew
   logic [3:0] pattern;                    // of EQUALISATION
   logic [7:0] counts;                     // ... and what it does to the counter
   logic [9:0] word;
@@ -68,8 +77,9 @@ module dsl_tx (
   logic       frame_ends;
 
   dsl_code_tx u_code (
+    .clk_i,
     .data_i      (plan_i.parameter_byte),
-    .disparity_i (disparity_q),
+    .disparity_i (disparity),
     .uneven_o    (uneven),
     .word_o      (word)
   );
@@ -77,15 +87,18 @@ module dsl_tx (
   always_comb begin
     pattern = 4'b0000;
     counts  = 8'd0;
-    if (signed'(disparity_q) > 8'sd3) begin
-      counts = -8'd4;
-    end else if (signed'(disparity_q) > 8'sd1) begin
-      pattern = 4'b0010;
-      counts  = -8'd2;
-    end else if (signed'(disparity_q) < -8'sd3) begin
+    // Above 3, above 1; below -3, below -1.
+    if (!disparity[7]) begin
+      if (disparity[6:2] != '0) begin
+        counts = -8'd4;
+      end else if (disparity[1]) begin
+        pattern = 4'b0010;
+        counts  = -8'd2;
+      end
+    end else if (disparity[6:2] != '1 || disparity[1:0] == 2'b00) begin
       pattern = 4'b1111;
       counts  = 8'd4;
-    end else if (signed'(disparity_q) < -8'sd1) begin
+    end else if (disparity[1:0] != 2'b11) begin
       pattern = 4'b1101;
       counts  = 8'd2;
     end
@@ -100,7 +113,8 @@ module dsl_tx (
     left_d      = left_q;
     bits_d      = bits_q;
     blocks_d    = blocks_q;
-    disparity_d = disparity_q;
+    moves       = 8'd0;
+    clears      = 1'b0;
     fresh_d     = fresh_q;
     if (slot_i) begin
       fresh_d = 1'b0;
@@ -122,20 +136,20 @@ module dsl_tx (
             field_d     = CYCLE_FIELD;
             left_d      = CYCLE_LAST;
             bits_d      = CYCLE;
-            disparity_d = disparity_q + {4'd0, plan_i.added};
+            moves       = {4'd0, plan_i.added};
           end
         end
         CYCLE_FIELD: begin
           field_d     = EQUAL_FIELD;
           left_d      = EQUAL_LAST;
           bits_d      = {pattern, 6'd0};
-          disparity_d = disparity_q + counts;
+          moves       = counts;
         end
         EQUAL_FIELD: begin
           field_d = PARAM_FIELD;
           left_d  = PARAM_LAST;
           bits_d  = word;
-          if (uneven) disparity_d = disparity_q + (disparity_q[7] ? 8'd2 : -8'd2);
+          if (uneven) moves = disparity[7] ? 8'd2 : -8'd2;
         end
         PARAM_FIELD: begin
           // SWITCH.
@@ -147,14 +161,14 @@ module dsl_tx (
           left_d   = TRAILER_LAST;
           bits_d   = TRAILER;
           blocks_d = plan_i.blocks;
-          if (plan_i.answer) disparity_d = 8'd0;
+          clears   = plan_i.answer;
         end
         default: begin
           // The frame is over, or a block of stuffing follows.
           if (gap_i) begin
             field_d     = GAP_FIELD;
             left_d      = GAP_LAST;
-            disparity_d = 8'd0;
+            clears      = 1'b1;
           end else if (field_q == GAP_FIELD || frame_ends) begin
             field_d = HEAD_FIELD;
             left_d  = HEAD_LAST;
@@ -169,6 +183,11 @@ module dsl_tx (
       endcase
     end
   end
+
+  assign disparity   = 8'(signed'(disparity_q));
+  assign moved       = disparity + moves;
+  assign disparity_d = moved[DisparityW-1:0] & {DisparityW{!clears}};
+  assign unused      = ^moved;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin

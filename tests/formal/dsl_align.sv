@@ -28,12 +28,12 @@
 // look: stale = u_dut.stale_q
 // look: now = u_rows.row
 // mutation: dsl/dsl_program.sv | SAFE + 8'd7:      row = jump_unless(NEW1, WITHOUT); | SAFE + 8'd7:      row = jump_unless(NEW2, WITHOUT);
-// mutation: dsl/dsl_program.sv | WAIT + 8'd1:      row = jump_unless(VERTICAL, SHOW); | WAIT + 8'd1:      row = jump_unless(GOOD, SHOW);
+// mutation: dsl/dsl_program.sv | WAIT + 8'd1:      row = jump_unless(VERTICAL, COMPARE); | WAIT + 8'd1:      row = jump_unless(GOOD, COMPARE);
 // mutation: dsl/dsl_program.sv | row = set(SECOND, ENDED); | row = set(THIRD, ENDED);
 // mutation: dsl/dsl_program.sv | row = set(LOST, ADD); | row = set(ALIGNED, ADD);
 // mutation: dsl/dsl_position.sv | if (!answer_i.linked) align_q | if (answer_i.begins) align_q
 // mutation: dsl/dsl_position.sv | quirks_i.recover && !told_i.acceleration_marked; | quirks_i.recover;
-// mutation: dsl/dsl_program.sv | row = jump_if(ALWAYS, STATUS); | row = jump_if(ALWAYS, STATUS + 8'd80);
+// mutation: dsl/dsl_program.sv | row = jump_if(ALWAYS, STATUS); | row = jump_if(ALWAYS, STATUS + 8'd40);
 
 module proof (
   input logic             clk_i,
@@ -41,20 +41,27 @@ module proof (
   input dsl_pkg::quirks_t quirks_i,
   input dsl_pkg::answer_t answer_i,
   input dsl_pkg::told_t   told_i,
-  input logic [7:0]       time_i
+  input logic [7:0]       safe2_bits_i, tolerance_i,
+  input logic [7:0]       time_i,
+  input logic             record_busy_i
 );
 
   logic lost, tell;
   dsl_position u_dut (
     .clk_i, .rst_ni, .quirks_i, .answer_i, .told_i,
-    .status_i         (94'd0),
+    .status_i         (62'd0),
+    .safe2_bits_i,
+    .tolerance_i,
     .time_i,
     .time_next_o      (),
     .lost_o           (lost),
+    .stale_o          (),
+    .mismatch_o       (),
     .record_write_o   (),
     .record_address_o (),
     .record_data_o    (),
-    .tell_o           (tell)
+    .tell_o           (tell),
+    .record_busy_i
   );
 
   wire [2:0]  align;
@@ -85,9 +92,9 @@ module proof (
   end
 
   // Where sections of dsl_program begin.
-  localparam logic [7:0] BEGIN = 8'd34, MISSED = 8'd61, ADD = 8'd66, WAIT = 8'd84, SAFE = 8'd86, PLACE = 8'd103,
-                         PAUSE = 8'd106, WITHOUT = 8'd107, KEEP = 8'd110, OFF = 8'd113, CORRECT = 8'd119,
-                         MEND = 8'd128, ENDED = 8'd162, STATUS = 8'd170, IDLE = 8'd172, CLOSE = 8'd176;
+  localparam logic [7:0] BEGIN = 8'd38, MISSED = 8'd65, ADD = 8'd70, WAIT = 8'd88, SAFE = 8'd90, PLACE = 8'd107,
+                         PAUSE = 8'd110, WITHOUT = 8'd111, KEEP = 8'd115, OFF = 8'd118, CORRECT = 8'd124,
+                         MEND = 8'd133, ENDED = 8'd167, STATUS = 8'd205, IDLE = 8'd207, CLOSE = 8'd211;
   localparam logic [2:0] FIRST = 3'd0, SECOND = 3'd1, THIRD = 3'd2, FOURTH = 3'd3, ALIGNED = 3'd4,
                          LOST = 3'd5, MENDING = 3'd6;
 

@@ -14,12 +14,12 @@
 // unbounded: induction 1
 // look: dut_field = u_dut.field_q
 // look: dut_left = u_dut.left_q
-// look: dut_disparity = u_dut.disparity_q
+// look: dut_disparity = u_dut.disparity
 // mutation: dsl/dsl_tx.sv | WINDOW_LAST  = 7'd73 | WINDOW_LAST  = 7'd72
 // mutation: dsl/dsl_tx.sv | (field_q == WINDOW_FIELD && plan_i.answer)
 //   | (field_q == WINDOW_FIELD && plan_i.answer && !fresh_q)
 // mutation: dsl/dsl_tx.sv | counts  = 8'd2; | counts  = 8'd0;
-// mutation: dsl/dsl_tx.sv | (disparity_q[7] ? 8'd2 : -8'd2) | 8'd2
+// mutation: dsl/dsl_tx.sv | disparity[7] ? 8'd2 : -8'd2; | 8'd2;
 // mutation: dsl/dsl_tx.sv | if (gap_i) begin | if (gap_i && field_q != GAP_FIELD) begin
 // mutation: dsl/dsl_tx.sv | PARAM_LAST   = 7'd9 | PARAM_LAST   = 7'd10
 
@@ -36,7 +36,7 @@ module proof (
   logic          begins;
   dsl_pkg::bit_t line_bit;
 
-  dsl_tx u_dut (
+  dsl_tx #(.DisparityW(3)) u_dut (
     .clk_i, .rst_ni, .slot_i, .gap_i, .plan_i, .begin_o (begins), .bit_o (line_bit)
   );
 

@@ -41,10 +41,10 @@ module proof (
   logic [2:0] reason;
 
   dsl_link u_dut (
-    .clk_i, .rst_ni, .quirks_i, .hold_i (1'b0), .begin_i, .plan_o (), .gap_o (), .forget_o (),
+    .clk_i, .rst_ni, .quirks_i, .hold_i (1'b0), .begin_i, .symbol_i (5'h10), .plan_o (), .gap_o (), .forget_o (),
     .purpose_o (), .done_i, .match_i, .valid_i, .number_i, .word_i, .judged_i, .good_i,
     .missing_i, .misfit_i, .start_o (), .linked_o (), .begins_o (), .running_o (),
-    .place_o (), .state_o (), .reason_o (reason), .resets_o (), .identity_o (), .width_o ()
+    .place_o (), .state_o (), .reason_o (reason), .restart_o (), .identity_o (), .width_o ()
   );
 
   wire [3:0] dut_state;

@@ -29,7 +29,7 @@
 // mutation: dsl/dsl_link.sv | fails = !good_i || missing_i || misfit_i; | fails = !good_i || misfit_i;
 // mutation: dsl/dsl_link.sv | last = vsync_q; | last = vsync_q || count_q == 8'd20;
 // mutation: dsl/dsl_link.sv | if (word_i.data != high_q) | if (word_i.data[6:0] != high_q[6:0])
-// mutation: dsl/dsl_link.sv | width > MOST_BITS | width > MOST_BITS + 7'd1
+// mutation: dsl/dsl_link.sv | width[4:0] != 5'd0 | width[4:1] != 4'd0
 // mutation: dsl/dsl_link.sv | word_i.data[7:4] != word_i.data[3:0] | word_i.data[7:5] != word_i.data[3:1]
 // mutation: dsl/dsl_link.sv | if (running && good_i && !missing_i) reason_q | if (running && good_i) reason_q
 // mutation: dsl/dsl_link.sv | if (begin_i) begin | if (begin_i || restart) begin
@@ -41,6 +41,7 @@ module proof (
   input logic             rst_ni,
   input dsl_pkg::quirks_t quirks_i,
   input logic             hold_i, begin_i,
+  input logic [4:0]       symbol_i,
   input logic             done_i, match_i,
   input logic             valid_i,
   input logic [2:0]       number_i,
@@ -56,15 +57,15 @@ module proof (
   logic [1:0]     purpose;
   logic [2:0]     place, reason;
   logic [3:0]     state;
-  logic [15:0]    resets;
+  logic           restart;
   logic [19:0]    identity;
   logic [5:0]     width;
 
   dsl_link u_dut (
-    .clk_i, .rst_ni, .quirks_i, .hold_i, .begin_i, .plan_o (plan), .gap_o (gap), .forget_o (forget),
+    .clk_i, .rst_ni, .quirks_i, .hold_i, .begin_i, .symbol_i, .plan_o (plan), .gap_o (gap), .forget_o (forget),
     .purpose_o (purpose), .done_i, .match_i, .valid_i, .number_i, .word_i, .judged_i, .good_i,
     .missing_i, .misfit_i, .start_o (start), .linked_o (linked), .begins_o (begins), .running_o (running),
-    .place_o (place), .state_o (state), .reason_o (reason), .resets_o (resets),
+    .place_o (place), .state_o (state), .reason_o (reason), .restart_o (restart),
     .identity_o (identity), .width_o (width)
   );
 
@@ -82,7 +83,8 @@ module proof (
   logic             begin_q, gap_q, linked_q, hold_q, ended_q, judged_q;
   logic [2:0]       reason_q, expected_q;
   logic [7:0]       count_q;
-  logic [15:0]      resets_q;
+  logic             restart_q;
+  logic [4:0]       symbol_q;
   logic             done_seen_q, judged_seen_q; // in this frame
   logic             wrong_q;                    // the pattern of this frame
   logic             vsync_q;                    // S_PAR of this frame has it
@@ -119,7 +121,8 @@ module proof (
     hold_q    <= hold_i;
     linked_q  <= linked;
     reason_q  <= reason;
-    resets_q  <= resets;
+    restart_q <= restart;
+    symbol_q  <= symbol_i;
     judged_q  <= judged_i;
     ended_q   <= judged_i && bad && !gap;
     expected_q <= state == RUN ? (!good_i ? 3'd6 : missing_i ? 3'd7 : 3'd4) : 3'(state - 4'd2);
@@ -164,6 +167,7 @@ module proof (
   always @* begin
     if (!started) assume (!rst_ni);
     if (started) assume (quirks_i == quirks_q);
+    if (started && !begin_q) assume (symbol_i == symbol_q);
     if (state < START) assume (!done_i && !judged_i && !valid_i);
     if (done_seen_q || done_i) assume (!valid_i);
     if (valid_i) assume (number_i == next_q && next_q < 3'd6);
@@ -225,7 +229,7 @@ module proof (
       if (!gap_q && state_q == VSYNC) Run_A: assert (state == (vsync_was_q ? RUN : VSYNC));
       if (state == RUN && state_q != RUN) OnlyVsync_A: assert (state_q == VSYNC && vsync_was_q);
     end
-    Ended_A:  assert (resets == resets_q + {15'd0, ended_q});
+    Ended_A:  assert (restart_q == ended_q);
     Reason_A: assert (reason == (ended_q ? expected_q : reason_q));
     if (ended_q) Gap_A: assert (gap && !linked);
     if (!ended_q && !hold_q && !hold_i && !gap_q) NoGap_A: assert (!gap);

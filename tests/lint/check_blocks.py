@@ -42,14 +42,20 @@ INSTEAD = {
     "enc_sync_bit": "through enc_count_rx",
     "enc_time": "through mb4_page",
     "enc_wb": "proof wb",
+    "dsl_answer": "through dsl_message",
+    "dsl_crc16": "through dsl_vertical",
+    "dsl_events": "test tests/block/dsl/dsl_regs_test.cpp",  # with the registers
     "dsl_judge": "through dsl_line",
     "dsl_learn": "through dsl_receiver",
     "dsl_bridge": "test tests/block/dsl/dsl_axil_test.cpp",  # two clocks
     "dsl_map": "through dsl_regs",
     "dsl_program": "through dsl_position",
     "dsl_link": "through dsl_line",
+    "dsl_request": "through dsl_message",
     "dsl_rx": "through dsl_receiver",
     "dsl_sample": "through dsl_receiver",
+    "dsl_stored": "through dsl_message",
+    "dsl_work": "through dsl_message",
     "mb4_control": "test tests/chip/control/control_fault_test.cpp",  # time base between frames
     "mb4_engine": "test tests/chip/registers/register_test.cpp",   # resets
     "mb4_lines": "test tests/chip/registers/config_change_test.cpp",   # actuators from one flop

@@ -60,7 +60,7 @@ class Block {
   Block() {
     if constexpr (requires { model.clk_i; }) {
       model.clk_i = 0;
-      model.rst_ni = 0;
+      if constexpr (requires { model.rst_ni; }) model.rst_ni = 0;
       model.eval();  // what the first call finds is no edge
     }
   }

@@ -81,7 +81,7 @@ SIBLINGS = {
     "biss_clb": Sibling("clb", "[`biss_clb`](clb.md) with its page of identity, interrupt and time.", 650, 100),
     "biss_pru": Sibling("pru", "[`biss_pru`](pru.md) with a clock of 80 MHz.", 1100, 80, {"ClockHz": 80_000_000}),
     "dsl_axil": Sibling("dsl", "[`dsl_axil`](dsl.md) with a bus clock of its own and, on iCE40, `synth_ice40 -abc2`; "
-                        "five seeds.", 1580, 75, {}, "-abc2", (1, 2, 3, 4, 5)),
+                        "five seeds.", 2000, 75, {}, "-abc2", (1, 2, 3, 4, 5)),
 }
 
 AXI_DESIGNS = ((1, 0), (1, 1), (4, 0), (4, 1), (16, 0))   # channels, stream mode

@@ -26,9 +26,13 @@
 #define DSL_ADDR_MASTER_QM 0x03U /* Quality monitor */
 #define DSL_ADDR_EVENT_H 0x04U /* Events, high byte */
 #define DSL_ADDR_EVENT_L 0x05U /* Events, low byte */
+#define DSL_ADDR_MASK_H 0x06U /* Mask of EVENT_H */
+#define DSL_ADDR_MASK_L 0x07U /* Mask of EVENT_L */
+#define DSL_ADDR_MASK_SUM 0x08U /* Mask of SUMMARY */
 #define DSL_ADDR_EDGES 0x09U /* Edges */
 #define DSL_ADDR_DELAY 0x0AU /* Strength and delay */
 #define DSL_ADDR_CODE_VERSION 0x0BU /* Version */
+#define DSL_ADDR_RELEASE 0x0CU /* Release */
 #define DSL_ADDR_ENC_ID2 0x0DU /* Identity of the encoder, byte 2 */
 #define DSL_ADDR_ENC_ID1 0x0EU /* Identity of the encoder, byte 1 */
 #define DSL_ADDR_ENC_ID0 0x0FU /* Identity of the encoder, byte 0 */
@@ -48,10 +52,38 @@
 #define DSL_ADDR_VPOS0 0x1DU /* Safe position 1, byte 0 */
 #define DSL_ADDR_VPOSCRC_H 0x1EU /* CRC of safe position 1, high byte */
 #define DSL_ADDR_VPOSCRC_L 0x1FU /* CRC of safe position 1, low byte */
+#define DSL_ADDR_PC_BUFFER0 0x20U /* Data of a long message, byte 0 */
+#define DSL_ADDR_PC_BUFFER1 0x21U /* Data of a long message, byte 1 */
+#define DSL_ADDR_PC_BUFFER2 0x22U /* Data of a long message, byte 2 */
+#define DSL_ADDR_PC_BUFFER3 0x23U /* Data of a long message, byte 3 */
+#define DSL_ADDR_PC_BUFFER4 0x24U /* Data of a long message, byte 4 */
+#define DSL_ADDR_PC_BUFFER5 0x25U /* Data of a long message, byte 5 */
+#define DSL_ADDR_PC_BUFFER6 0x26U /* Data of a long message, byte 6 */
+#define DSL_ADDR_PC_BUFFER7 0x27U /* Data of a long message, byte 7 */
+#define DSL_ADDR_PC_ADD_H 0x28U /* Address of a long message, high byte */
+#define DSL_ADDR_PC_ADD_L 0x29U /* Address of a long message, low byte */
+#define DSL_ADDR_PC_OFF_H 0x2AU /* Offset of a long message, high byte */
+#define DSL_ADDR_PC_OFF_L 0x2BU /* Offset of a long message, low byte */
+#define DSL_ADDR_PC_CTRL 0x2CU /* Control of long messages */
+#define DSL_ADDR_PIPE_S 0x2DU /* State of the sensors' byte */
+#define DSL_ADDR_PIPE_D 0x2EU /* Byte of the sensors */
+#define DSL_ADDR_PC_DATA 0x2FU /* Data of a short message */
+#define DSL_ADDR_S_SLAVE_REG_CTRL 0x34U /* Start of a short message, safe host */
 #define DSL_ADDR_SAFE_CTRL 0x35U /* Control of the safe channel */
 #define DSL_ADDR_SAFE_SUM 0x36U /* Summary of the safe channel */
+#define DSL_ADDR_S_PC_DATA 0x37U /* Data of a short message, safe host */
 #define DSL_ADDR_ACC_ERR_CNT 0x38U /* Missing accelerations */
+#define DSL_ADDR_MAXACC 0x39U /* Highest acceleration */
+#define DSL_ADDR_MAXDEV_H 0x3AU /* Deviation, high byte */
+#define DSL_ADDR_MAXDEV_L 0x3BU /* Deviation, low byte */
+#define DSL_ADDR_EVENT_S 0x3DU /* Events of the safe host */
+#define DSL_ADDR_MASK_S 0x3EU /* Mask of EVENT_S */
+#define DSL_ADDR_SLAVE_REG_CTRL 0x40U /* Start of a short message */
 #define DSL_ADDR_ACC_ERR_CNT_THRESH 0x41U /* Limit of missing accelerations */
+#define DSL_ADDR_MAXDEV_THRESH_H 0x42U /* Limit of the deviation, high byte */
+#define DSL_ADDR_MAXDEV_THRESH_L 0x43U /* Limit of the deviation, low byte */
+#define DSL_ADDR_VERSION2 0x44U /* Version of the second safe channel */
+#define DSL_ADDR_ENC2_ID 0x45U /* Identity of the second encoder */
 #define DSL_ADDR_STATUS2 0x46U /* Status of the second safe channel */
 #define DSL_ADDR_VPOS2_4 0x47U /* Safe position 2, byte 4 */
 #define DSL_ADDR_VPOS2_3 0x48U /* Safe position 2, byte 3 */
@@ -60,11 +92,18 @@
 #define DSL_ADDR_VPOS2_0 0x4BU /* Safe position 2, byte 0 */
 #define DSL_ADDR_VPOSCRC2_H 0x4CU /* CRC of safe position 2, high byte */
 #define DSL_ADDR_VPOSCRC2_L 0x4DU /* CRC of safe position 2, low byte */
+#define DSL_ADDR_POSTX 0x4EU /* Position ready */
+#define DSL_ADDR_ONLINE_D_H 0x50U /* State now of EVENT_H */
+#define DSL_ADDR_ONLINE_D_L 0x51U /* State now of EVENT_L */
+#define DSL_ADDR_ONLINE_1_H 0x52U /* State now of the safe host, high byte */
+#define DSL_ADDR_ONLINE_1_L 0x53U /* State now of the safe host, low byte */
+#define DSL_ADDR_ONLINE_2_H 0x54U /* State now of safe channel 2, high byte */
+#define DSL_ADDR_ONLINE_2_L 0x55U /* State now of safe channel 2, low byte */
 
 /* ---- Registers ------------------------------------------------------------------------------- */
 
 #define DSL_RESET_SYS_CTRL 0x00U
-#define DSL_WMASK_SYS_CTRL 0x81U
+#define DSL_WMASK_SYS_CTRL 0xC1U
 #define DSL_CONST_SYS_CTRL 0x00U
 #define DSL_RESET_SYNC_CTRL 0x01U
 #define DSL_WMASK_SYNC_CTRL 0xFFU
@@ -76,8 +115,17 @@
 #define DSL_WMASK_EVENT_H 0x6DU
 #define DSL_CONST_EVENT_H 0x00U
 #define DSL_RESET_EVENT_L 0x00U
-#define DSL_WMASK_EVENT_L 0x04U
+#define DSL_WMASK_EVENT_L 0x37U
 #define DSL_CONST_EVENT_L 0x00U
+#define DSL_RESET_MASK_H 0x00U
+#define DSL_WMASK_MASK_H 0x6DU
+#define DSL_CONST_MASK_H 0x00U
+#define DSL_RESET_MASK_L 0x00U
+#define DSL_WMASK_MASK_L 0x37U
+#define DSL_CONST_MASK_L 0x00U
+#define DSL_RESET_MASK_SUM 0x00U
+#define DSL_WMASK_MASK_SUM 0xFFU
+#define DSL_CONST_MASK_SUM 0x00U
 #define DSL_RESET_EDGES 0x00U
 #define DSL_WMASK_EDGES 0x00U
 #define DSL_CONST_EDGES 0x00U
@@ -87,6 +135,9 @@
 #define DSL_RESET_CODE_VERSION 0x56U
 #define DSL_WMASK_CODE_VERSION 0x00U
 #define DSL_CONST_CODE_VERSION 0x00U
+#define DSL_RESET_RELEASE 0x01U
+#define DSL_WMASK_RELEASE 0x00U
+#define DSL_CONST_RELEASE 0x00U
 #define DSL_RESET_ENC_ID2 0x00U
 #define DSL_WMASK_ENC_ID2 0x00U
 #define DSL_CONST_ENC_ID2 0x00U
@@ -144,18 +195,102 @@
 #define DSL_RESET_VPOSCRC_L 0x00U
 #define DSL_WMASK_VPOSCRC_L 0x00U
 #define DSL_CONST_VPOSCRC_L 0x00U
+#define DSL_RESET_PC_BUFFER0 0x00U
+#define DSL_WMASK_PC_BUFFER0 0xFFU
+#define DSL_CONST_PC_BUFFER0 0x00U
+#define DSL_RESET_PC_BUFFER1 0x00U
+#define DSL_WMASK_PC_BUFFER1 0xFFU
+#define DSL_CONST_PC_BUFFER1 0x00U
+#define DSL_RESET_PC_BUFFER2 0x00U
+#define DSL_WMASK_PC_BUFFER2 0xFFU
+#define DSL_CONST_PC_BUFFER2 0x00U
+#define DSL_RESET_PC_BUFFER3 0x00U
+#define DSL_WMASK_PC_BUFFER3 0xFFU
+#define DSL_CONST_PC_BUFFER3 0x00U
+#define DSL_RESET_PC_BUFFER4 0x00U
+#define DSL_WMASK_PC_BUFFER4 0xFFU
+#define DSL_CONST_PC_BUFFER4 0x00U
+#define DSL_RESET_PC_BUFFER5 0x00U
+#define DSL_WMASK_PC_BUFFER5 0xFFU
+#define DSL_CONST_PC_BUFFER5 0x00U
+#define DSL_RESET_PC_BUFFER6 0x00U
+#define DSL_WMASK_PC_BUFFER6 0xFFU
+#define DSL_CONST_PC_BUFFER6 0x00U
+#define DSL_RESET_PC_BUFFER7 0x00U
+#define DSL_WMASK_PC_BUFFER7 0xFFU
+#define DSL_CONST_PC_BUFFER7 0x00U
+#define DSL_RESET_PC_ADD_H 0x80U
+#define DSL_WMASK_PC_ADD_H 0x7FU
+#define DSL_CONST_PC_ADD_H 0x00U
+#define DSL_RESET_PC_ADD_L 0x00U
+#define DSL_WMASK_PC_ADD_L 0xFFU
+#define DSL_CONST_PC_ADD_L 0x00U
+#define DSL_RESET_PC_OFF_H 0x80U
+#define DSL_WMASK_PC_OFF_H 0x7FU
+#define DSL_CONST_PC_OFF_H 0x00U
+#define DSL_RESET_PC_OFF_L 0x00U
+#define DSL_WMASK_PC_OFF_L 0xFFU
+#define DSL_CONST_PC_OFF_L 0x00U
+#define DSL_RESET_PC_CTRL 0x00U
+#define DSL_WMASK_PC_CTRL 0x01U
+#define DSL_CONST_PC_CTRL 0x00U
+#define DSL_RESET_PIPE_S 0x04U
+#define DSL_WMASK_PIPE_S 0x00U
+#define DSL_CONST_PIPE_S 0x00U
+#define DSL_RESET_PIPE_D 0x00U
+#define DSL_WMASK_PIPE_D 0x00U
+#define DSL_CONST_PIPE_D 0x00U
+#define DSL_RESET_PC_DATA 0x00U
+#define DSL_WMASK_PC_DATA 0xFFU
+#define DSL_CONST_PC_DATA 0x00U
+#define DSL_RESET_S_SLAVE_REG_CTRL 0x3FU
+#define DSL_WMASK_S_SLAVE_REG_CTRL 0xFFU
+#define DSL_CONST_S_SLAVE_REG_CTRL 0x00U
 #define DSL_RESET_SAFE_CTRL 0x00U
-#define DSL_WMASK_SAFE_CTRL 0x80U
+#define DSL_WMASK_SAFE_CTRL 0xC0U
 #define DSL_CONST_SAFE_CTRL 0x00U
 #define DSL_RESET_SAFE_SUM 0x00U
 #define DSL_WMASK_SAFE_SUM 0x00U
 #define DSL_CONST_SAFE_SUM 0x00U
+#define DSL_RESET_S_PC_DATA 0x00U
+#define DSL_WMASK_S_PC_DATA 0xFFU
+#define DSL_CONST_S_PC_DATA 0x00U
 #define DSL_RESET_ACC_ERR_CNT 0x00U
 #define DSL_WMASK_ACC_ERR_CNT 0xFFU
 #define DSL_CONST_ACC_ERR_CNT 0x00U
+#define DSL_RESET_MAXACC 0x00U
+#define DSL_WMASK_MAXACC 0xFFU
+#define DSL_CONST_MAXACC 0x00U
+#define DSL_RESET_MAXDEV_H 0x00U
+#define DSL_WMASK_MAXDEV_H 0x00U
+#define DSL_CONST_MAXDEV_H 0xFFU
+#define DSL_RESET_MAXDEV_L 0x00U
+#define DSL_WMASK_MAXDEV_L 0x00U
+#define DSL_CONST_MAXDEV_L 0xFFU
+#define DSL_RESET_EVENT_S 0x00U
+#define DSL_WMASK_EVENT_S 0x7FU
+#define DSL_CONST_EVENT_S 0x00U
+#define DSL_RESET_MASK_S 0x00U
+#define DSL_WMASK_MASK_S 0x7FU
+#define DSL_CONST_MASK_S 0x00U
+#define DSL_RESET_SLAVE_REG_CTRL 0x3FU
+#define DSL_WMASK_SLAVE_REG_CTRL 0xFFU
+#define DSL_CONST_SLAVE_REG_CTRL 0x00U
 #define DSL_RESET_ACC_ERR_CNT_THRESH 0x1FU
 #define DSL_WMASK_ACC_ERR_CNT_THRESH 0x1FU
 #define DSL_CONST_ACC_ERR_CNT_THRESH 0x00U
+#define DSL_RESET_MAXDEV_THRESH_H 0xFFU
+#define DSL_WMASK_MAXDEV_THRESH_H 0x00U
+#define DSL_CONST_MAXDEV_THRESH_H 0x00U
+#define DSL_RESET_MAXDEV_THRESH_L 0xFFU
+#define DSL_WMASK_MAXDEV_THRESH_L 0x00U
+#define DSL_CONST_MAXDEV_THRESH_L 0x00U
+#define DSL_RESET_VERSION2 0x00U
+#define DSL_WMASK_VERSION2 0x00U
+#define DSL_CONST_VERSION2 0xFFU
+#define DSL_RESET_ENC2_ID 0x00U
+#define DSL_WMASK_ENC2_ID 0x00U
+#define DSL_CONST_ENC2_ID 0xFFU
 #define DSL_RESET_STATUS2 0x00U
 #define DSL_WMASK_STATUS2 0x00U
 #define DSL_CONST_STATUS2 0x00U
@@ -180,6 +315,27 @@
 #define DSL_RESET_VPOSCRC2_L 0x00U
 #define DSL_WMASK_VPOSCRC2_L 0x00U
 #define DSL_CONST_VPOSCRC2_L 0x00U
+#define DSL_RESET_POSTX 0x00U
+#define DSL_WMASK_POSTX 0x00U
+#define DSL_CONST_POSTX 0x00U
+#define DSL_RESET_ONLINE_D_H 0x19U
+#define DSL_WMASK_ONLINE_D_H 0x00U
+#define DSL_CONST_ONLINE_D_H 0x00U
+#define DSL_RESET_ONLINE_D_L 0x00U
+#define DSL_WMASK_ONLINE_D_L 0x00U
+#define DSL_CONST_ONLINE_D_L 0x00U
+#define DSL_RESET_ONLINE_1_H 0x11U
+#define DSL_WMASK_ONLINE_1_H 0x00U
+#define DSL_CONST_ONLINE_1_H 0x00U
+#define DSL_RESET_ONLINE_1_L 0x00U
+#define DSL_WMASK_ONLINE_1_L 0x00U
+#define DSL_CONST_ONLINE_1_L 0x00U
+#define DSL_RESET_ONLINE_2_H 0x11U
+#define DSL_WMASK_ONLINE_2_H 0x00U
+#define DSL_CONST_ONLINE_2_H 0x00U
+#define DSL_RESET_ONLINE_2_L 0x00U
+#define DSL_WMASK_ONLINE_2_L 0x00U
+#define DSL_CONST_ONLINE_2_L 0x00U
 
 /* ---- Single fields --------------------------------------------------------------------------- */
 
@@ -188,6 +344,12 @@
 #define DSL_PRST_SHIFT 7U
 #define DSL_PRST_MASK 0x80U
 #define DSL_PRST_RESET 0x00U
+
+/* MRST, R/W */
+#define DSL_MRST_ADDR 0x00U
+#define DSL_MRST_SHIFT 6U
+#define DSL_MRST_MASK 0x40U
+#define DSL_MRST_RESET 0x00U
 
 /* OEN, R/W */
 #define DSL_OEN_ADDR 0x00U
@@ -212,6 +374,12 @@
 #define DSL_QM_SHIFT 0U
 #define DSL_QM_MASK 0x0FU
 #define DSL_QM_RESET 0x00U
+
+/* INT, R */
+#define DSL_INT_ADDR 0x04U
+#define DSL_INT_SHIFT 7U
+#define DSL_INT_MASK 0x80U
+#define DSL_INT_RESET 0x00U
 
 /* SUM, R, write 0 clears */
 #define DSL_SUM_ADDR 0x04U
@@ -243,11 +411,101 @@
 #define DSL_EVENT_PRST_MASK 0x01U
 #define DSL_EVENT_PRST_RESET 0x00U
 
+/* MIN, R, write 0 clears */
+#define DSL_MIN_ADDR 0x05U
+#define DSL_MIN_SHIFT 5U
+#define DSL_MIN_MASK 0x20U
+#define DSL_MIN_RESET 0x00U
+
+/* ANS, R, write 0 clears */
+#define DSL_ANS_ADDR 0x05U
+#define DSL_ANS_SHIFT 4U
+#define DSL_ANS_MASK 0x10U
+#define DSL_ANS_RESET 0x00U
+
 /* QMLW, R, write 0 clears */
 #define DSL_QMLW_ADDR 0x05U
 #define DSL_QMLW_SHIFT 2U
 #define DSL_QMLW_MASK 0x04U
 #define DSL_QMLW_RESET 0x00U
+
+/* FREL, R, write 0 clears */
+#define DSL_FREL_ADDR 0x05U
+#define DSL_FREL_SHIFT 1U
+#define DSL_FREL_MASK 0x02U
+#define DSL_FREL_RESET 0x00U
+
+/* FRES, R, write 0 clears */
+#define DSL_FRES_ADDR 0x05U
+#define DSL_FRES_SHIFT 0U
+#define DSL_FRES_MASK 0x01U
+#define DSL_FRES_RESET 0x00U
+
+/* MSUM, R/W */
+#define DSL_MSUM_ADDR 0x06U
+#define DSL_MSUM_SHIFT 6U
+#define DSL_MSUM_MASK 0x40U
+#define DSL_MSUM_RESET 0x00U
+
+/* MSCE, R/W */
+#define DSL_MSCE_ADDR 0x06U
+#define DSL_MSCE_SHIFT 5U
+#define DSL_MSCE_MASK 0x20U
+#define DSL_MSCE_RESET 0x00U
+
+/* MPOS, R/W */
+#define DSL_MPOS_ADDR 0x06U
+#define DSL_MPOS_SHIFT 3U
+#define DSL_MPOS_MASK 0x08U
+#define DSL_MPOS_RESET 0x00U
+
+/* MVPOS, R/W */
+#define DSL_MVPOS_ADDR 0x06U
+#define DSL_MVPOS_SHIFT 2U
+#define DSL_MVPOS_MASK 0x04U
+#define DSL_MVPOS_RESET 0x00U
+
+/* MPRST, R/W */
+#define DSL_MPRST_ADDR 0x06U
+#define DSL_MPRST_SHIFT 0U
+#define DSL_MPRST_MASK 0x01U
+#define DSL_MPRST_RESET 0x00U
+
+/* MMIN, R/W */
+#define DSL_MMIN_ADDR 0x07U
+#define DSL_MMIN_SHIFT 5U
+#define DSL_MMIN_MASK 0x20U
+#define DSL_MMIN_RESET 0x00U
+
+/* MANS, R/W */
+#define DSL_MANS_ADDR 0x07U
+#define DSL_MANS_SHIFT 4U
+#define DSL_MANS_MASK 0x10U
+#define DSL_MANS_RESET 0x00U
+
+/* MQMLW, R/W */
+#define DSL_MQMLW_ADDR 0x07U
+#define DSL_MQMLW_SHIFT 2U
+#define DSL_MQMLW_MASK 0x04U
+#define DSL_MQMLW_RESET 0x00U
+
+/* MFREL, R/W */
+#define DSL_MFREL_ADDR 0x07U
+#define DSL_MFREL_SHIFT 1U
+#define DSL_MFREL_MASK 0x02U
+#define DSL_MFREL_RESET 0x00U
+
+/* MFRES, R/W */
+#define DSL_MFRES_ADDR 0x07U
+#define DSL_MFRES_SHIFT 0U
+#define DSL_MFRES_MASK 0x01U
+#define DSL_MFRES_RESET 0x00U
+
+/* MASK_SUM, R/W */
+#define DSL_MASK_SUM_ADDR 0x08U
+#define DSL_MASK_SUM_SHIFT 0U
+#define DSL_MASK_SUM_MASK 0xFFU
+#define DSL_MASK_SUM_RESET 0x00U
 
 /* EDGES, R */
 #define DSL_EDGES_ADDR 0x09U
@@ -272,6 +530,12 @@
 #define DSL_CODE_VERSION_SHIFT 0U
 #define DSL_CODE_VERSION_MASK 0xFFU
 #define DSL_CODE_VERSION_RESET 0x56U
+
+/* RELEASE, R */
+#define DSL_RELEASE_ADDR 0x0CU
+#define DSL_RELEASE_SHIFT 0U
+#define DSL_RELEASE_MASK 0xFFU
+#define DSL_RELEASE_RESET 0x01U
 
 /* ENC_ID_MORE, R */
 #define DSL_ENC_ID_MORE_ADDR 0x0DU
@@ -411,11 +675,173 @@
 #define DSL_VPOSCRC_L_MASK 0xFFU
 #define DSL_VPOSCRC_L_RESET 0x00U
 
+/* PC_BUFFER0, R/W */
+#define DSL_PC_BUFFER0_ADDR 0x20U
+#define DSL_PC_BUFFER0_SHIFT 0U
+#define DSL_PC_BUFFER0_MASK 0xFFU
+#define DSL_PC_BUFFER0_RESET 0x00U
+
+/* PC_BUFFER1, R/W */
+#define DSL_PC_BUFFER1_ADDR 0x21U
+#define DSL_PC_BUFFER1_SHIFT 0U
+#define DSL_PC_BUFFER1_MASK 0xFFU
+#define DSL_PC_BUFFER1_RESET 0x00U
+
+/* PC_BUFFER2, R/W */
+#define DSL_PC_BUFFER2_ADDR 0x22U
+#define DSL_PC_BUFFER2_SHIFT 0U
+#define DSL_PC_BUFFER2_MASK 0xFFU
+#define DSL_PC_BUFFER2_RESET 0x00U
+
+/* PC_BUFFER3, R/W */
+#define DSL_PC_BUFFER3_ADDR 0x23U
+#define DSL_PC_BUFFER3_SHIFT 0U
+#define DSL_PC_BUFFER3_MASK 0xFFU
+#define DSL_PC_BUFFER3_RESET 0x00U
+
+/* PC_BUFFER4, R/W */
+#define DSL_PC_BUFFER4_ADDR 0x24U
+#define DSL_PC_BUFFER4_SHIFT 0U
+#define DSL_PC_BUFFER4_MASK 0xFFU
+#define DSL_PC_BUFFER4_RESET 0x00U
+
+/* PC_BUFFER5, R/W */
+#define DSL_PC_BUFFER5_ADDR 0x25U
+#define DSL_PC_BUFFER5_SHIFT 0U
+#define DSL_PC_BUFFER5_MASK 0xFFU
+#define DSL_PC_BUFFER5_RESET 0x00U
+
+/* PC_BUFFER6, R/W */
+#define DSL_PC_BUFFER6_ADDR 0x26U
+#define DSL_PC_BUFFER6_SHIFT 0U
+#define DSL_PC_BUFFER6_MASK 0xFFU
+#define DSL_PC_BUFFER6_RESET 0x00U
+
+/* PC_BUFFER7, R/W */
+#define DSL_PC_BUFFER7_ADDR 0x27U
+#define DSL_PC_BUFFER7_SHIFT 0U
+#define DSL_PC_BUFFER7_MASK 0xFFU
+#define DSL_PC_BUFFER7_RESET 0x00U
+
+/* LID, R */
+#define DSL_LID_ADDR 0x28U
+#define DSL_LID_SHIFT 7U
+#define DSL_LID_MASK 0x80U
+#define DSL_LID_RESET 0x01U
+
+/* LRW, R/W */
+#define DSL_LRW_ADDR 0x28U
+#define DSL_LRW_SHIFT 6U
+#define DSL_LRW_MASK 0x40U
+#define DSL_LRW_RESET 0x00U
+
+/* LOFF, R/W */
+#define DSL_LOFF_ADDR 0x28U
+#define DSL_LOFF_SHIFT 5U
+#define DSL_LOFF_MASK 0x20U
+#define DSL_LOFF_RESET 0x00U
+
+/* LIND, R/W */
+#define DSL_LIND_ADDR 0x28U
+#define DSL_LIND_SHIFT 4U
+#define DSL_LIND_MASK 0x10U
+#define DSL_LIND_RESET 0x00U
+
+/* LLEN, R/W */
+#define DSL_LLEN_ADDR 0x28U
+#define DSL_LLEN_SHIFT 2U
+#define DSL_LLEN_MASK 0x0CU
+#define DSL_LLEN_RESET 0x00U
+
+/* LADD_H, R/W */
+#define DSL_LADD_H_ADDR 0x28U
+#define DSL_LADD_H_SHIFT 0U
+#define DSL_LADD_H_MASK 0x03U
+#define DSL_LADD_H_RESET 0x00U
+
+/* LADD_L, R/W */
+#define DSL_LADD_L_ADDR 0x29U
+#define DSL_LADD_L_SHIFT 0U
+#define DSL_LADD_L_MASK 0xFFU
+#define DSL_LADD_L_RESET 0x00U
+
+/* OFF_LID, R */
+#define DSL_OFF_LID_ADDR 0x2AU
+#define DSL_OFF_LID_SHIFT 7U
+#define DSL_OFF_LID_MASK 0x80U
+#define DSL_OFF_LID_RESET 0x01U
+
+/* LOFFADD_H, R/W */
+#define DSL_LOFFADD_H_ADDR 0x2AU
+#define DSL_LOFFADD_H_SHIFT 0U
+#define DSL_LOFFADD_H_MASK 0x7FU
+#define DSL_LOFFADD_H_RESET 0x00U
+
+/* LOFFADD_L, R/W */
+#define DSL_LOFFADD_L_ADDR 0x2BU
+#define DSL_LOFFADD_L_SHIFT 0U
+#define DSL_LOFFADD_L_MASK 0xFFU
+#define DSL_LOFFADD_L_RESET 0x00U
+
+/* LSTA, W */
+#define DSL_LSTA_ADDR 0x2CU
+#define DSL_LSTA_SHIFT 0U
+#define DSL_LSTA_MASK 0x01U
+#define DSL_LSTA_RESET 0x00U
+
+/* POVR, R */
+#define DSL_POVR_ADDR 0x2DU
+#define DSL_POVR_SHIFT 3U
+#define DSL_POVR_MASK 0x08U
+#define DSL_POVR_RESET 0x00U
+
+/* PEMP, R */
+#define DSL_PEMP_ADDR 0x2DU
+#define DSL_PEMP_SHIFT 2U
+#define DSL_PEMP_MASK 0x04U
+#define DSL_PEMP_RESET 0x01U
+
+/* PERR, R */
+#define DSL_PERR_ADDR 0x2DU
+#define DSL_PERR_SHIFT 1U
+#define DSL_PERR_MASK 0x02U
+#define DSL_PERR_RESET 0x00U
+
+/* PSCI, R */
+#define DSL_PSCI_ADDR 0x2DU
+#define DSL_PSCI_SHIFT 0U
+#define DSL_PSCI_MASK 0x01U
+#define DSL_PSCI_RESET 0x00U
+
+/* PIPE_D, R */
+#define DSL_PIPE_D_ADDR 0x2EU
+#define DSL_PIPE_D_SHIFT 0U
+#define DSL_PIPE_D_MASK 0xFFU
+#define DSL_PIPE_D_RESET 0x00U
+
+/* PC_DATA, R/W */
+#define DSL_PC_DATA_ADDR 0x2FU
+#define DSL_PC_DATA_SHIFT 0U
+#define DSL_PC_DATA_MASK 0xFFU
+#define DSL_PC_DATA_RESET 0x00U
+
+/* S_SLAVE_REG_CTRL, R/W */
+#define DSL_S_SLAVE_REG_CTRL_ADDR 0x34U
+#define DSL_S_SLAVE_REG_CTRL_SHIFT 0U
+#define DSL_S_SLAVE_REG_CTRL_MASK 0xFFU
+#define DSL_S_SLAVE_REG_CTRL_RESET 0x3FU
+
 /* SAFE_PRST, R/W */
 #define DSL_SAFE_PRST_ADDR 0x35U
 #define DSL_SAFE_PRST_SHIFT 7U
 #define DSL_SAFE_PRST_MASK 0x80U
 #define DSL_SAFE_PRST_RESET 0x00U
+
+/* SAFE_MRST, R/W */
+#define DSL_SAFE_MRST_ADDR 0x35U
+#define DSL_SAFE_MRST_SHIFT 6U
+#define DSL_SAFE_MRST_MASK 0x40U
+#define DSL_SAFE_MRST_RESET 0x00U
 
 /* SAFE_SUM, R */
 #define DSL_SAFE_SUM_ADDR 0x36U
@@ -423,17 +849,137 @@
 #define DSL_SAFE_SUM_MASK 0xFFU
 #define DSL_SAFE_SUM_RESET 0x00U
 
+/* S_PC_DATA, R/W */
+#define DSL_S_PC_DATA_ADDR 0x37U
+#define DSL_S_PC_DATA_SHIFT 0U
+#define DSL_S_PC_DATA_MASK 0xFFU
+#define DSL_S_PC_DATA_RESET 0x00U
+
 /* CNT, R/W */
 #define DSL_CNT_ADDR 0x38U
 #define DSL_CNT_SHIFT 0U
 #define DSL_CNT_MASK 0xFFU
 #define DSL_CNT_RESET 0x00U
 
+/* MAXACC, R/W */
+#define DSL_MAXACC_ADDR 0x39U
+#define DSL_MAXACC_SHIFT 0U
+#define DSL_MAXACC_MASK 0xFFU
+#define DSL_MAXACC_RESET 0x00U
+
+/* SINT, R */
+#define DSL_SINT_ADDR 0x3DU
+#define DSL_SINT_SHIFT 7U
+#define DSL_SINT_MASK 0x80U
+#define DSL_SINT_RESET 0x00U
+
+/* SSUM, R, write 0 clears */
+#define DSL_SSUM_ADDR 0x3DU
+#define DSL_SSUM_SHIFT 6U
+#define DSL_SSUM_MASK 0x40U
+#define DSL_SSUM_RESET 0x00U
+
+/* S_SCE, R, write 0 clears */
+#define DSL_S_SCE_ADDR 0x3DU
+#define DSL_S_SCE_SHIFT 5U
+#define DSL_S_SCE_MASK 0x20U
+#define DSL_S_SCE_RESET 0x00U
+
+/* S_VPOS, R, write 0 clears */
+#define DSL_S_VPOS_ADDR 0x3DU
+#define DSL_S_VPOS_SHIFT 4U
+#define DSL_S_VPOS_MASK 0x10U
+#define DSL_S_VPOS_RESET 0x00U
+
+/* S_QMLW, R, write 0 clears */
+#define DSL_S_QMLW_ADDR 0x3DU
+#define DSL_S_QMLW_SHIFT 3U
+#define DSL_S_QMLW_MASK 0x08U
+#define DSL_S_QMLW_RESET 0x00U
+
+/* S_PRST, R, write 0 clears */
+#define DSL_S_PRST_ADDR 0x3DU
+#define DSL_S_PRST_SHIFT 2U
+#define DSL_S_PRST_MASK 0x04U
+#define DSL_S_PRST_RESET 0x00U
+
+/* S_MIN, R, write 0 clears */
+#define DSL_S_MIN_ADDR 0x3DU
+#define DSL_S_MIN_SHIFT 1U
+#define DSL_S_MIN_MASK 0x02U
+#define DSL_S_MIN_RESET 0x00U
+
+/* S_FRES, R, write 0 clears */
+#define DSL_S_FRES_ADDR 0x3DU
+#define DSL_S_FRES_SHIFT 0U
+#define DSL_S_FRES_MASK 0x01U
+#define DSL_S_FRES_RESET 0x00U
+
+/* MSSUM, R/W */
+#define DSL_MSSUM_ADDR 0x3EU
+#define DSL_MSSUM_SHIFT 6U
+#define DSL_MSSUM_MASK 0x40U
+#define DSL_MSSUM_RESET 0x00U
+
+/* MSSCE, R/W */
+#define DSL_MSSCE_ADDR 0x3EU
+#define DSL_MSSCE_SHIFT 5U
+#define DSL_MSSCE_MASK 0x20U
+#define DSL_MSSCE_RESET 0x00U
+
+/* MSVPOS, R/W */
+#define DSL_MSVPOS_ADDR 0x3EU
+#define DSL_MSVPOS_SHIFT 4U
+#define DSL_MSVPOS_MASK 0x10U
+#define DSL_MSVPOS_RESET 0x00U
+
+/* MSQMLW, R/W */
+#define DSL_MSQMLW_ADDR 0x3EU
+#define DSL_MSQMLW_SHIFT 3U
+#define DSL_MSQMLW_MASK 0x08U
+#define DSL_MSQMLW_RESET 0x00U
+
+/* MSPRST, R/W */
+#define DSL_MSPRST_ADDR 0x3EU
+#define DSL_MSPRST_SHIFT 2U
+#define DSL_MSPRST_MASK 0x04U
+#define DSL_MSPRST_RESET 0x00U
+
+/* MSMIN, R/W */
+#define DSL_MSMIN_ADDR 0x3EU
+#define DSL_MSMIN_SHIFT 1U
+#define DSL_MSMIN_MASK 0x02U
+#define DSL_MSMIN_RESET 0x00U
+
+/* MSFRES, R/W */
+#define DSL_MSFRES_ADDR 0x3EU
+#define DSL_MSFRES_SHIFT 0U
+#define DSL_MSFRES_MASK 0x01U
+#define DSL_MSFRES_RESET 0x00U
+
+/* SLAVE_REG_CTRL, R/W */
+#define DSL_SLAVE_REG_CTRL_ADDR 0x40U
+#define DSL_SLAVE_REG_CTRL_SHIFT 0U
+#define DSL_SLAVE_REG_CTRL_MASK 0xFFU
+#define DSL_SLAVE_REG_CTRL_RESET 0x3FU
+
 /* THRESH, R/W */
 #define DSL_THRESH_ADDR 0x41U
 #define DSL_THRESH_SHIFT 0U
 #define DSL_THRESH_MASK 0x1FU
 #define DSL_THRESH_RESET 0x1FU
+
+/* MAXDEV_THRESH_H, R */
+#define DSL_MAXDEV_THRESH_H_ADDR 0x42U
+#define DSL_MAXDEV_THRESH_H_SHIFT 0U
+#define DSL_MAXDEV_THRESH_H_MASK 0xFFU
+#define DSL_MAXDEV_THRESH_H_RESET 0xFFU
+
+/* MAXDEV_THRESH_L, R */
+#define DSL_MAXDEV_THRESH_L_ADDR 0x43U
+#define DSL_MAXDEV_THRESH_L_SHIFT 0U
+#define DSL_MAXDEV_THRESH_L_MASK 0xFFU
+#define DSL_MAXDEV_THRESH_L_RESET 0xFFU
 
 /* TOG2, R */
 #define DSL_TOG2_ADDR 0x46U
@@ -500,5 +1046,191 @@
 #define DSL_VPOSCRC2_L_SHIFT 0U
 #define DSL_VPOSCRC2_L_MASK 0xFFU
 #define DSL_VPOSCRC2_L_RESET 0x00U
+
+/* POSTX, R */
+#define DSL_POSTX_ADDR 0x4EU
+#define DSL_POSTX_SHIFT 0U
+#define DSL_POSTX_MASK 0x03U
+#define DSL_POSTX_RESET 0x00U
+
+/* NOW_INT, R */
+#define DSL_NOW_INT_ADDR 0x50U
+#define DSL_NOW_INT_SHIFT 7U
+#define DSL_NOW_INT_MASK 0x80U
+#define DSL_NOW_INT_RESET 0x00U
+
+/* NOW_SUM, R */
+#define DSL_NOW_SUM_ADDR 0x50U
+#define DSL_NOW_SUM_SHIFT 6U
+#define DSL_NOW_SUM_MASK 0x40U
+#define DSL_NOW_SUM_RESET 0x00U
+
+/* NOW_SCE, R */
+#define DSL_NOW_SCE_ADDR 0x50U
+#define DSL_NOW_SCE_SHIFT 5U
+#define DSL_NOW_SCE_MASK 0x20U
+#define DSL_NOW_SCE_RESET 0x00U
+
+/* NOW_ONE, R */
+#define DSL_NOW_ONE_ADDR 0x50U
+#define DSL_NOW_ONE_SHIFT 4U
+#define DSL_NOW_ONE_MASK 0x10U
+#define DSL_NOW_ONE_RESET 0x01U
+
+/* NOW_POS, R */
+#define DSL_NOW_POS_ADDR 0x50U
+#define DSL_NOW_POS_SHIFT 3U
+#define DSL_NOW_POS_MASK 0x08U
+#define DSL_NOW_POS_RESET 0x01U
+
+/* NOW_VPOS, R */
+#define DSL_NOW_VPOS_ADDR 0x50U
+#define DSL_NOW_VPOS_SHIFT 2U
+#define DSL_NOW_VPOS_MASK 0x04U
+#define DSL_NOW_VPOS_RESET 0x00U
+
+/* NOW_PRST, R */
+#define DSL_NOW_PRST_ADDR 0x50U
+#define DSL_NOW_PRST_SHIFT 0U
+#define DSL_NOW_PRST_MASK 0x01U
+#define DSL_NOW_PRST_RESET 0x01U
+
+/* NOW_MIN, R */
+#define DSL_NOW_MIN_ADDR 0x51U
+#define DSL_NOW_MIN_SHIFT 5U
+#define DSL_NOW_MIN_MASK 0x20U
+#define DSL_NOW_MIN_RESET 0x00U
+
+/* NOW_ANS, R */
+#define DSL_NOW_ANS_ADDR 0x51U
+#define DSL_NOW_ANS_SHIFT 4U
+#define DSL_NOW_ANS_MASK 0x10U
+#define DSL_NOW_ANS_RESET 0x00U
+
+/* NOW_QMLW, R */
+#define DSL_NOW_QMLW_ADDR 0x51U
+#define DSL_NOW_QMLW_SHIFT 2U
+#define DSL_NOW_QMLW_MASK 0x04U
+#define DSL_NOW_QMLW_RESET 0x00U
+
+/* NOW_FREL, R */
+#define DSL_NOW_FREL_ADDR 0x51U
+#define DSL_NOW_FREL_SHIFT 1U
+#define DSL_NOW_FREL_MASK 0x02U
+#define DSL_NOW_FREL_RESET 0x00U
+
+/* NOW_FRES, R */
+#define DSL_NOW_FRES_ADDR 0x51U
+#define DSL_NOW_FRES_SHIFT 0U
+#define DSL_NOW_FRES_MASK 0x01U
+#define DSL_NOW_FRES_RESET 0x00U
+
+/* NOW_SINT, R */
+#define DSL_NOW_SINT_ADDR 0x52U
+#define DSL_NOW_SINT_SHIFT 7U
+#define DSL_NOW_SINT_MASK 0x80U
+#define DSL_NOW_SINT_RESET 0x00U
+
+/* NOW_SSUM, R */
+#define DSL_NOW_SSUM_ADDR 0x52U
+#define DSL_NOW_SSUM_SHIFT 6U
+#define DSL_NOW_SSUM_MASK 0x40U
+#define DSL_NOW_SSUM_RESET 0x00U
+
+/* NOW1_SCE, R */
+#define DSL_NOW1_SCE_ADDR 0x52U
+#define DSL_NOW1_SCE_SHIFT 5U
+#define DSL_NOW1_SCE_MASK 0x20U
+#define DSL_NOW1_SCE_RESET 0x00U
+
+/* NOW1_ONE, R */
+#define DSL_NOW1_ONE_ADDR 0x52U
+#define DSL_NOW1_ONE_SHIFT 4U
+#define DSL_NOW1_ONE_MASK 0x10U
+#define DSL_NOW1_ONE_RESET 0x01U
+
+/* NOW1_VPOS, R */
+#define DSL_NOW1_VPOS_ADDR 0x52U
+#define DSL_NOW1_VPOS_SHIFT 2U
+#define DSL_NOW1_VPOS_MASK 0x04U
+#define DSL_NOW1_VPOS_RESET 0x00U
+
+/* NOW1_PRST, R */
+#define DSL_NOW1_PRST_ADDR 0x52U
+#define DSL_NOW1_PRST_SHIFT 0U
+#define DSL_NOW1_PRST_MASK 0x01U
+#define DSL_NOW1_PRST_RESET 0x01U
+
+/* NOW1_MIN, R */
+#define DSL_NOW1_MIN_ADDR 0x53U
+#define DSL_NOW1_MIN_SHIFT 5U
+#define DSL_NOW1_MIN_MASK 0x20U
+#define DSL_NOW1_MIN_RESET 0x00U
+
+/* NOW1_QMLW, R */
+#define DSL_NOW1_QMLW_ADDR 0x53U
+#define DSL_NOW1_QMLW_SHIFT 2U
+#define DSL_NOW1_QMLW_MASK 0x04U
+#define DSL_NOW1_QMLW_RESET 0x00U
+
+/* NOW1_FRES, R */
+#define DSL_NOW1_FRES_ADDR 0x53U
+#define DSL_NOW1_FRES_SHIFT 0U
+#define DSL_NOW1_FRES_MASK 0x01U
+#define DSL_NOW1_FRES_RESET 0x00U
+
+/* NOW2_SUM2, R */
+#define DSL_NOW2_SUM2_ADDR 0x54U
+#define DSL_NOW2_SUM2_SHIFT 6U
+#define DSL_NOW2_SUM2_MASK 0x40U
+#define DSL_NOW2_SUM2_RESET 0x00U
+
+/* NOW2_SCE2, R */
+#define DSL_NOW2_SCE2_ADDR 0x54U
+#define DSL_NOW2_SCE2_SHIFT 5U
+#define DSL_NOW2_SCE2_MASK 0x20U
+#define DSL_NOW2_SCE2_RESET 0x00U
+
+/* NOW2_ONE, R */
+#define DSL_NOW2_ONE_ADDR 0x54U
+#define DSL_NOW2_ONE_SHIFT 4U
+#define DSL_NOW2_ONE_MASK 0x10U
+#define DSL_NOW2_ONE_RESET 0x01U
+
+/* NOW2_VPOS2, R */
+#define DSL_NOW2_VPOS2_ADDR 0x54U
+#define DSL_NOW2_VPOS2_SHIFT 2U
+#define DSL_NOW2_VPOS2_MASK 0x04U
+#define DSL_NOW2_VPOS2_RESET 0x00U
+
+/* NOW2_PRST, R */
+#define DSL_NOW2_PRST_ADDR 0x54U
+#define DSL_NOW2_PRST_SHIFT 0U
+#define DSL_NOW2_PRST_MASK 0x01U
+#define DSL_NOW2_PRST_RESET 0x01U
+
+/* NOW2_TOG2, R */
+#define DSL_NOW2_TOG2_ADDR 0x55U
+#define DSL_NOW2_TOG2_SHIFT 7U
+#define DSL_NOW2_TOG2_MASK 0x80U
+#define DSL_NOW2_TOG2_RESET 0x00U
+
+/* NOW2_TEST2, R */
+#define DSL_NOW2_TEST2_ADDR 0x55U
+#define DSL_NOW2_TEST2_SHIFT 6U
+#define DSL_NOW2_TEST2_MASK 0x40U
+#define DSL_NOW2_TEST2_RESET 0x00U
+
+/* NOW2_ERR2, R */
+#define DSL_NOW2_ERR2_ADDR 0x55U
+#define DSL_NOW2_ERR2_SHIFT 5U
+#define DSL_NOW2_ERR2_MASK 0x20U
+#define DSL_NOW2_ERR2_RESET 0x00U
+
+/* NOW2_QMLW, R */
+#define DSL_NOW2_QMLW_ADDR 0x55U
+#define DSL_NOW2_QMLW_SHIFT 2U
+#define DSL_NOW2_QMLW_MASK 0x04U
+#define DSL_NOW2_QMLW_RESET 0x00U
 
 #endif /* DSL_REGS_H_ */

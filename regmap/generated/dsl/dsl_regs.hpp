@@ -19,9 +19,13 @@ inline constexpr std::uint8_t kAddrSyncCtrl = 0x01;  // Synchronisation
 inline constexpr std::uint8_t kAddrMasterQm = 0x03;  // Quality monitor
 inline constexpr std::uint8_t kAddrEventH = 0x04;  // Events, high byte
 inline constexpr std::uint8_t kAddrEventL = 0x05;  // Events, low byte
+inline constexpr std::uint8_t kAddrMaskH = 0x06;  // Mask of EVENT_H
+inline constexpr std::uint8_t kAddrMaskL = 0x07;  // Mask of EVENT_L
+inline constexpr std::uint8_t kAddrMaskSum = 0x08;  // Mask of SUMMARY
 inline constexpr std::uint8_t kAddrEdges = 0x09;  // Edges
 inline constexpr std::uint8_t kAddrDelay = 0x0A;  // Strength and delay
 inline constexpr std::uint8_t kAddrCodeVersion = 0x0B;  // Version
+inline constexpr std::uint8_t kAddrRelease = 0x0C;  // Release
 inline constexpr std::uint8_t kAddrEncId2 = 0x0D;  // Identity of the encoder, byte 2
 inline constexpr std::uint8_t kAddrEncId1 = 0x0E;  // Identity of the encoder, byte 1
 inline constexpr std::uint8_t kAddrEncId0 = 0x0F;  // Identity of the encoder, byte 0
@@ -41,10 +45,38 @@ inline constexpr std::uint8_t kAddrVpos1 = 0x1C;  // Safe position 1, byte 1
 inline constexpr std::uint8_t kAddrVpos0 = 0x1D;  // Safe position 1, byte 0
 inline constexpr std::uint8_t kAddrVposcrcH = 0x1E;  // CRC of safe position 1, high byte
 inline constexpr std::uint8_t kAddrVposcrcL = 0x1F;  // CRC of safe position 1, low byte
+inline constexpr std::uint8_t kAddrPcBuffer0 = 0x20;  // Data of a long message, byte 0
+inline constexpr std::uint8_t kAddrPcBuffer1 = 0x21;  // Data of a long message, byte 1
+inline constexpr std::uint8_t kAddrPcBuffer2 = 0x22;  // Data of a long message, byte 2
+inline constexpr std::uint8_t kAddrPcBuffer3 = 0x23;  // Data of a long message, byte 3
+inline constexpr std::uint8_t kAddrPcBuffer4 = 0x24;  // Data of a long message, byte 4
+inline constexpr std::uint8_t kAddrPcBuffer5 = 0x25;  // Data of a long message, byte 5
+inline constexpr std::uint8_t kAddrPcBuffer6 = 0x26;  // Data of a long message, byte 6
+inline constexpr std::uint8_t kAddrPcBuffer7 = 0x27;  // Data of a long message, byte 7
+inline constexpr std::uint8_t kAddrPcAddH = 0x28;  // Address of a long message, high byte
+inline constexpr std::uint8_t kAddrPcAddL = 0x29;  // Address of a long message, low byte
+inline constexpr std::uint8_t kAddrPcOffH = 0x2A;  // Offset of a long message, high byte
+inline constexpr std::uint8_t kAddrPcOffL = 0x2B;  // Offset of a long message, low byte
+inline constexpr std::uint8_t kAddrPcCtrl = 0x2C;  // Control of long messages
+inline constexpr std::uint8_t kAddrPipeS = 0x2D;  // State of the sensors' byte
+inline constexpr std::uint8_t kAddrPipeD = 0x2E;  // Byte of the sensors
+inline constexpr std::uint8_t kAddrPcData = 0x2F;  // Data of a short message
+inline constexpr std::uint8_t kAddrSSlaveRegCtrl = 0x34;  // Start of a short message, safe host
 inline constexpr std::uint8_t kAddrSafeCtrl = 0x35;  // Control of the safe channel
 inline constexpr std::uint8_t kAddrSafeSum = 0x36;  // Summary of the safe channel
+inline constexpr std::uint8_t kAddrSPcData = 0x37;  // Data of a short message, safe host
 inline constexpr std::uint8_t kAddrAccErrCnt = 0x38;  // Missing accelerations
+inline constexpr std::uint8_t kAddrMaxacc = 0x39;  // Highest acceleration
+inline constexpr std::uint8_t kAddrMaxdevH = 0x3A;  // Deviation, high byte
+inline constexpr std::uint8_t kAddrMaxdevL = 0x3B;  // Deviation, low byte
+inline constexpr std::uint8_t kAddrEventS = 0x3D;  // Events of the safe host
+inline constexpr std::uint8_t kAddrMaskS = 0x3E;  // Mask of EVENT_S
+inline constexpr std::uint8_t kAddrSlaveRegCtrl = 0x40;  // Start of a short message
 inline constexpr std::uint8_t kAddrAccErrCntThresh = 0x41;  // Limit of missing accelerations
+inline constexpr std::uint8_t kAddrMaxdevThreshH = 0x42;  // Limit of the deviation, high byte
+inline constexpr std::uint8_t kAddrMaxdevThreshL = 0x43;  // Limit of the deviation, low byte
+inline constexpr std::uint8_t kAddrVersion2 = 0x44;  // Version of the second safe channel
+inline constexpr std::uint8_t kAddrEnc2Id = 0x45;  // Identity of the second encoder
 inline constexpr std::uint8_t kAddrStatus2 = 0x46;  // Status of the second safe channel
 inline constexpr std::uint8_t kAddrVpos24 = 0x47;  // Safe position 2, byte 4
 inline constexpr std::uint8_t kAddrVpos23 = 0x48;  // Safe position 2, byte 3
@@ -53,12 +85,19 @@ inline constexpr std::uint8_t kAddrVpos21 = 0x4A;  // Safe position 2, byte 1
 inline constexpr std::uint8_t kAddrVpos20 = 0x4B;  // Safe position 2, byte 0
 inline constexpr std::uint8_t kAddrVposcrc2H = 0x4C;  // CRC of safe position 2, high byte
 inline constexpr std::uint8_t kAddrVposcrc2L = 0x4D;  // CRC of safe position 2, low byte
+inline constexpr std::uint8_t kAddrPostx = 0x4E;  // Position ready
+inline constexpr std::uint8_t kAddrOnlineDH = 0x50;  // State now of EVENT_H
+inline constexpr std::uint8_t kAddrOnlineDL = 0x51;  // State now of EVENT_L
+inline constexpr std::uint8_t kAddrOnline1H = 0x52;  // State now of the safe host, high byte
+inline constexpr std::uint8_t kAddrOnline1L = 0x53;  // State now of the safe host, low byte
+inline constexpr std::uint8_t kAddrOnline2H = 0x54;  // State now of safe channel 2, high byte
+inline constexpr std::uint8_t kAddrOnline2L = 0x55;  // State now of safe channel 2, low byte
 
 
 // ---- Registers: value after reset, bits that a host write reaches, constant bits ----------------
 
 inline constexpr std::uint8_t kResetSysCtrl = 0x00;
-inline constexpr std::uint8_t kWmaskSysCtrl = 0x81;
+inline constexpr std::uint8_t kWmaskSysCtrl = 0xC1;
 inline constexpr std::uint8_t kConstSysCtrl = 0x00;
 inline constexpr std::uint8_t kResetSyncCtrl = 0x01;
 inline constexpr std::uint8_t kWmaskSyncCtrl = 0xFF;
@@ -70,8 +109,17 @@ inline constexpr std::uint8_t kResetEventH = 0x00;
 inline constexpr std::uint8_t kWmaskEventH = 0x6D;
 inline constexpr std::uint8_t kConstEventH = 0x00;
 inline constexpr std::uint8_t kResetEventL = 0x00;
-inline constexpr std::uint8_t kWmaskEventL = 0x04;
+inline constexpr std::uint8_t kWmaskEventL = 0x37;
 inline constexpr std::uint8_t kConstEventL = 0x00;
+inline constexpr std::uint8_t kResetMaskH = 0x00;
+inline constexpr std::uint8_t kWmaskMaskH = 0x6D;
+inline constexpr std::uint8_t kConstMaskH = 0x00;
+inline constexpr std::uint8_t kResetMaskL = 0x00;
+inline constexpr std::uint8_t kWmaskMaskL = 0x37;
+inline constexpr std::uint8_t kConstMaskL = 0x00;
+inline constexpr std::uint8_t kResetMaskSum = 0x00;
+inline constexpr std::uint8_t kWmaskMaskSum = 0xFF;
+inline constexpr std::uint8_t kConstMaskSum = 0x00;
 inline constexpr std::uint8_t kResetEdges = 0x00;
 inline constexpr std::uint8_t kWmaskEdges = 0x00;
 inline constexpr std::uint8_t kConstEdges = 0x00;
@@ -81,6 +129,9 @@ inline constexpr std::uint8_t kConstDelay = 0x00;
 inline constexpr std::uint8_t kResetCodeVersion = 0x56;
 inline constexpr std::uint8_t kWmaskCodeVersion = 0x00;
 inline constexpr std::uint8_t kConstCodeVersion = 0x00;
+inline constexpr std::uint8_t kResetRelease = 0x01;
+inline constexpr std::uint8_t kWmaskRelease = 0x00;
+inline constexpr std::uint8_t kConstRelease = 0x00;
 inline constexpr std::uint8_t kResetEncId2 = 0x00;
 inline constexpr std::uint8_t kWmaskEncId2 = 0x00;
 inline constexpr std::uint8_t kConstEncId2 = 0x00;
@@ -138,18 +189,102 @@ inline constexpr std::uint8_t kConstVposcrcH = 0x00;
 inline constexpr std::uint8_t kResetVposcrcL = 0x00;
 inline constexpr std::uint8_t kWmaskVposcrcL = 0x00;
 inline constexpr std::uint8_t kConstVposcrcL = 0x00;
+inline constexpr std::uint8_t kResetPcBuffer0 = 0x00;
+inline constexpr std::uint8_t kWmaskPcBuffer0 = 0xFF;
+inline constexpr std::uint8_t kConstPcBuffer0 = 0x00;
+inline constexpr std::uint8_t kResetPcBuffer1 = 0x00;
+inline constexpr std::uint8_t kWmaskPcBuffer1 = 0xFF;
+inline constexpr std::uint8_t kConstPcBuffer1 = 0x00;
+inline constexpr std::uint8_t kResetPcBuffer2 = 0x00;
+inline constexpr std::uint8_t kWmaskPcBuffer2 = 0xFF;
+inline constexpr std::uint8_t kConstPcBuffer2 = 0x00;
+inline constexpr std::uint8_t kResetPcBuffer3 = 0x00;
+inline constexpr std::uint8_t kWmaskPcBuffer3 = 0xFF;
+inline constexpr std::uint8_t kConstPcBuffer3 = 0x00;
+inline constexpr std::uint8_t kResetPcBuffer4 = 0x00;
+inline constexpr std::uint8_t kWmaskPcBuffer4 = 0xFF;
+inline constexpr std::uint8_t kConstPcBuffer4 = 0x00;
+inline constexpr std::uint8_t kResetPcBuffer5 = 0x00;
+inline constexpr std::uint8_t kWmaskPcBuffer5 = 0xFF;
+inline constexpr std::uint8_t kConstPcBuffer5 = 0x00;
+inline constexpr std::uint8_t kResetPcBuffer6 = 0x00;
+inline constexpr std::uint8_t kWmaskPcBuffer6 = 0xFF;
+inline constexpr std::uint8_t kConstPcBuffer6 = 0x00;
+inline constexpr std::uint8_t kResetPcBuffer7 = 0x00;
+inline constexpr std::uint8_t kWmaskPcBuffer7 = 0xFF;
+inline constexpr std::uint8_t kConstPcBuffer7 = 0x00;
+inline constexpr std::uint8_t kResetPcAddH = 0x80;
+inline constexpr std::uint8_t kWmaskPcAddH = 0x7F;
+inline constexpr std::uint8_t kConstPcAddH = 0x00;
+inline constexpr std::uint8_t kResetPcAddL = 0x00;
+inline constexpr std::uint8_t kWmaskPcAddL = 0xFF;
+inline constexpr std::uint8_t kConstPcAddL = 0x00;
+inline constexpr std::uint8_t kResetPcOffH = 0x80;
+inline constexpr std::uint8_t kWmaskPcOffH = 0x7F;
+inline constexpr std::uint8_t kConstPcOffH = 0x00;
+inline constexpr std::uint8_t kResetPcOffL = 0x00;
+inline constexpr std::uint8_t kWmaskPcOffL = 0xFF;
+inline constexpr std::uint8_t kConstPcOffL = 0x00;
+inline constexpr std::uint8_t kResetPcCtrl = 0x00;
+inline constexpr std::uint8_t kWmaskPcCtrl = 0x01;
+inline constexpr std::uint8_t kConstPcCtrl = 0x00;
+inline constexpr std::uint8_t kResetPipeS = 0x04;
+inline constexpr std::uint8_t kWmaskPipeS = 0x00;
+inline constexpr std::uint8_t kConstPipeS = 0x00;
+inline constexpr std::uint8_t kResetPipeD = 0x00;
+inline constexpr std::uint8_t kWmaskPipeD = 0x00;
+inline constexpr std::uint8_t kConstPipeD = 0x00;
+inline constexpr std::uint8_t kResetPcData = 0x00;
+inline constexpr std::uint8_t kWmaskPcData = 0xFF;
+inline constexpr std::uint8_t kConstPcData = 0x00;
+inline constexpr std::uint8_t kResetSSlaveRegCtrl = 0x3F;
+inline constexpr std::uint8_t kWmaskSSlaveRegCtrl = 0xFF;
+inline constexpr std::uint8_t kConstSSlaveRegCtrl = 0x00;
 inline constexpr std::uint8_t kResetSafeCtrl = 0x00;
-inline constexpr std::uint8_t kWmaskSafeCtrl = 0x80;
+inline constexpr std::uint8_t kWmaskSafeCtrl = 0xC0;
 inline constexpr std::uint8_t kConstSafeCtrl = 0x00;
 inline constexpr std::uint8_t kResetSafeSum = 0x00;
 inline constexpr std::uint8_t kWmaskSafeSum = 0x00;
 inline constexpr std::uint8_t kConstSafeSum = 0x00;
+inline constexpr std::uint8_t kResetSPcData = 0x00;
+inline constexpr std::uint8_t kWmaskSPcData = 0xFF;
+inline constexpr std::uint8_t kConstSPcData = 0x00;
 inline constexpr std::uint8_t kResetAccErrCnt = 0x00;
 inline constexpr std::uint8_t kWmaskAccErrCnt = 0xFF;
 inline constexpr std::uint8_t kConstAccErrCnt = 0x00;
+inline constexpr std::uint8_t kResetMaxacc = 0x00;
+inline constexpr std::uint8_t kWmaskMaxacc = 0xFF;
+inline constexpr std::uint8_t kConstMaxacc = 0x00;
+inline constexpr std::uint8_t kResetMaxdevH = 0x00;
+inline constexpr std::uint8_t kWmaskMaxdevH = 0x00;
+inline constexpr std::uint8_t kConstMaxdevH = 0xFF;
+inline constexpr std::uint8_t kResetMaxdevL = 0x00;
+inline constexpr std::uint8_t kWmaskMaxdevL = 0x00;
+inline constexpr std::uint8_t kConstMaxdevL = 0xFF;
+inline constexpr std::uint8_t kResetEventS = 0x00;
+inline constexpr std::uint8_t kWmaskEventS = 0x7F;
+inline constexpr std::uint8_t kConstEventS = 0x00;
+inline constexpr std::uint8_t kResetMaskS = 0x00;
+inline constexpr std::uint8_t kWmaskMaskS = 0x7F;
+inline constexpr std::uint8_t kConstMaskS = 0x00;
+inline constexpr std::uint8_t kResetSlaveRegCtrl = 0x3F;
+inline constexpr std::uint8_t kWmaskSlaveRegCtrl = 0xFF;
+inline constexpr std::uint8_t kConstSlaveRegCtrl = 0x00;
 inline constexpr std::uint8_t kResetAccErrCntThresh = 0x1F;
 inline constexpr std::uint8_t kWmaskAccErrCntThresh = 0x1F;
 inline constexpr std::uint8_t kConstAccErrCntThresh = 0x00;
+inline constexpr std::uint8_t kResetMaxdevThreshH = 0xFF;
+inline constexpr std::uint8_t kWmaskMaxdevThreshH = 0x00;
+inline constexpr std::uint8_t kConstMaxdevThreshH = 0x00;
+inline constexpr std::uint8_t kResetMaxdevThreshL = 0xFF;
+inline constexpr std::uint8_t kWmaskMaxdevThreshL = 0x00;
+inline constexpr std::uint8_t kConstMaxdevThreshL = 0x00;
+inline constexpr std::uint8_t kResetVersion2 = 0x00;
+inline constexpr std::uint8_t kWmaskVersion2 = 0x00;
+inline constexpr std::uint8_t kConstVersion2 = 0xFF;
+inline constexpr std::uint8_t kResetEnc2Id = 0x00;
+inline constexpr std::uint8_t kWmaskEnc2Id = 0x00;
+inline constexpr std::uint8_t kConstEnc2Id = 0xFF;
 inline constexpr std::uint8_t kResetStatus2 = 0x00;
 inline constexpr std::uint8_t kWmaskStatus2 = 0x00;
 inline constexpr std::uint8_t kConstStatus2 = 0x00;
@@ -174,12 +309,34 @@ inline constexpr std::uint8_t kConstVposcrc2H = 0x00;
 inline constexpr std::uint8_t kResetVposcrc2L = 0x00;
 inline constexpr std::uint8_t kWmaskVposcrc2L = 0x00;
 inline constexpr std::uint8_t kConstVposcrc2L = 0x00;
+inline constexpr std::uint8_t kResetPostx = 0x00;
+inline constexpr std::uint8_t kWmaskPostx = 0x00;
+inline constexpr std::uint8_t kConstPostx = 0x00;
+inline constexpr std::uint8_t kResetOnlineDH = 0x19;
+inline constexpr std::uint8_t kWmaskOnlineDH = 0x00;
+inline constexpr std::uint8_t kConstOnlineDH = 0x00;
+inline constexpr std::uint8_t kResetOnlineDL = 0x00;
+inline constexpr std::uint8_t kWmaskOnlineDL = 0x00;
+inline constexpr std::uint8_t kConstOnlineDL = 0x00;
+inline constexpr std::uint8_t kResetOnline1H = 0x11;
+inline constexpr std::uint8_t kWmaskOnline1H = 0x00;
+inline constexpr std::uint8_t kConstOnline1H = 0x00;
+inline constexpr std::uint8_t kResetOnline1L = 0x00;
+inline constexpr std::uint8_t kWmaskOnline1L = 0x00;
+inline constexpr std::uint8_t kConstOnline1L = 0x00;
+inline constexpr std::uint8_t kResetOnline2H = 0x11;
+inline constexpr std::uint8_t kWmaskOnline2H = 0x00;
+inline constexpr std::uint8_t kConstOnline2H = 0x00;
+inline constexpr std::uint8_t kResetOnline2L = 0x00;
+inline constexpr std::uint8_t kWmaskOnline2L = 0x00;
+inline constexpr std::uint8_t kConstOnline2L = 0x00;
 
 // ---- Field types --------------------------------------------------------------------------------
 
 enum class Access : std::uint8_t {
   kReadWrite,
   kReadOnly,
+  kWriteOnly,  // reads 0
   kWriteZeroClears,  // writing 0 clears, writing 1 changes nothing
 };
 
@@ -233,6 +390,9 @@ struct Field {
 // 1: the driver is off and the link stays in RESET; the change to 0 starts it. SDK: writing 1
 // starts the link anew, and the bit clears itself.
 using PRST = Field<0x00, 7, 1, Access::kReadWrite, 0>;
+// Writing 1 resets the messages: INIT is sent up to the acknowledge of the encoder. It reads 1 up
+// to then, and clears itself.
+using MRST = Field<0x00, 6, 1, Access::kReadWrite, 0>;
 // 1: the driver stays off.
 using OEN = Field<0x00, 0, 1, Access::kReadWrite, 0>;
 // Frames for each pulse of the drive. Only 0, the free run, acts.
@@ -241,7 +401,9 @@ using ES = Field<0x01, 0, 8, Access::kReadWrite, 1>;
 using LINK = Field<0x03, 7, 1, Access::kReadOnly, 0>;
 // 0 to 15; it begins with 8.
 using QM = Field<0x03, 0, 4, Access::kReadOnly, 0>;
-// A bit of SUMMARY is 1.
+// An event and its bit in MASK_H or MASK_L are 1, now. It goes with them.
+using INT = Field<0x04, 7, 1, Access::kReadOnly, 0>;
+// A bit of SUMMARY that MASK_SUM selects is 1.
 using SUM = Field<0x04, 6, 1, Access::kWriteZeroClears, 0>;
 // The code or the CRC of a safe channel was wrong.
 using SCE = Field<0x04, 5, 1, Access::kWriteZeroClears, 0>;
@@ -251,8 +413,38 @@ using POS = Field<0x04, 3, 1, Access::kWriteZeroClears, 0>;
 using VPOS = Field<0x04, 2, 1, Access::kWriteZeroClears, 0>;
 // The link began again, or for the first time.
 using EVENT_PRST = Field<0x04, 0, 1, Access::kWriteZeroClears, 0>;
+// A reset of the messages has ended.
+using MIN = Field<0x05, 5, 1, Access::kWriteZeroClears, 0>;
+// A long message ended without its answer: NAK, a broken answer, or the end of the link.
+using ANS = Field<0x05, 4, 1, Access::kWriteZeroClears, 0>;
 // QM was below 14.
 using QMLW = Field<0x05, 2, 1, Access::kWriteZeroClears, 0>;
+// The channel is free for a long message. Its start clears the bit.
+using FREL = Field<0x05, 1, 1, Access::kWriteZeroClears, 0>;
+// It is free for a short message of PC_DATA. Its start clears the bit.
+using FRES = Field<0x05, 0, 1, Access::kWriteZeroClears, 0>;
+// 1 lets SUM set INT.
+using MSUM = Field<0x06, 6, 1, Access::kReadWrite, 0>;
+// 1 lets SCE set INT.
+using MSCE = Field<0x06, 5, 1, Access::kReadWrite, 0>;
+// 1 lets POS set INT.
+using MPOS = Field<0x06, 3, 1, Access::kReadWrite, 0>;
+// 1 lets VPOS set INT.
+using MVPOS = Field<0x06, 2, 1, Access::kReadWrite, 0>;
+// 1 lets EVENT_PRST set INT.
+using MPRST = Field<0x06, 0, 1, Access::kReadWrite, 0>;
+// 1 lets MIN set INT.
+using MMIN = Field<0x07, 5, 1, Access::kReadWrite, 0>;
+// 1 lets ANS set INT.
+using MANS = Field<0x07, 4, 1, Access::kReadWrite, 0>;
+// 1 lets QMLW set INT.
+using MQMLW = Field<0x07, 2, 1, Access::kReadWrite, 0>;
+// 1 lets FREL set INT.
+using MFREL = Field<0x07, 1, 1, Access::kReadWrite, 0>;
+// 1 lets FRES set INT.
+using MFRES = Field<0x07, 0, 1, Access::kReadWrite, 0>;
+// Bits as SUMMARY: 1 lets the bit set SUM.
+using MASK_SUM = Field<0x08, 0, 8, Access::kReadWrite, 0>;
 // The eighths of a bit in which the training had an edge: bit 0 is the first one.
 using EDGES = Field<0x09, 0, 8, Access::kReadOnly, 0>;
 // Strength of the last answer, 0 to 12.
@@ -261,6 +453,8 @@ using RSSI = Field<0x0A, 4, 4, Access::kReadOnly, 0>;
 using DELAY = Field<0x0A, 0, 4, Access::kReadOnly, 0>;
 // 56h; SDK: 10h.
 using CODE_VERSION = Field<0x0B, 0, 8, Access::kReadOnly, 86>;
+// 01h. The version of this master is in VERSION of the page.
+using RELEASE = Field<0x0C, 0, 8, Access::kReadOnly, 1>;
 // More would follow.
 using ENC_ID_MORE = Field<0x0D, 3, 1, Access::kReadOnly, 0>;
 // Bits 18 to 16.
@@ -307,15 +501,113 @@ using VPOS0 = Field<0x1D, 0, 8, Access::kReadOnly, 0>;
 using VPOSCRC_H = Field<0x1E, 0, 8, Access::kReadOnly, 0>;
 // As it was received, bits 7 to 0.
 using VPOSCRC_L = Field<0x1F, 0, 8, Access::kReadOnly, 0>;
+// The byte that comes first on the line. Writes while a long message runs are ignored; an answer
+// changes the bytes that it brings, all at once.
+using PC_BUFFER0 = Field<0x20, 0, 8, Access::kReadWrite, 0>;
+// As PC_BUFFER0.
+using PC_BUFFER1 = Field<0x21, 0, 8, Access::kReadWrite, 0>;
+// As PC_BUFFER0.
+using PC_BUFFER2 = Field<0x22, 0, 8, Access::kReadWrite, 0>;
+// As PC_BUFFER0.
+using PC_BUFFER3 = Field<0x23, 0, 8, Access::kReadWrite, 0>;
+// As PC_BUFFER0.
+using PC_BUFFER4 = Field<0x24, 0, 8, Access::kReadWrite, 0>;
+// As PC_BUFFER0.
+using PC_BUFFER5 = Field<0x25, 0, 8, Access::kReadWrite, 0>;
+// As PC_BUFFER0.
+using PC_BUFFER6 = Field<0x26, 0, 8, Access::kReadWrite, 0>;
+// As PC_BUFFER0.
+using PC_BUFFER7 = Field<0x27, 0, 8, Access::kReadWrite, 0>;
+// 1: a long message.
+using LID = Field<0x28, 7, 1, Access::kReadOnly, 1>;
+// 1: a read.
+using LRW = Field<0x28, 6, 1, Access::kReadWrite, 0>;
+// A request: an offset follows. An answer: an error.
+using LOFF = Field<0x28, 5, 1, Access::kReadWrite, 0>;
+// 1: indirect.
+using LIND = Field<0x28, 4, 1, Access::kReadWrite, 0>;
+// 0, 2, 4 or 8 bytes of data.
+using LLEN = Field<0x28, 2, 2, Access::kReadWrite, 0>;
+// Bits 9 and 8.
+using LADD_H = Field<0x28, 0, 2, Access::kReadWrite, 0>;
+// Bits 7 to 0.
+using LADD_L = Field<0x29, 0, 8, Access::kReadWrite, 0>;
+// 1.
+using OFF_LID = Field<0x2A, 7, 1, Access::kReadOnly, 1>;
+// Bits 14 to 8.
+using LOFFADD_H = Field<0x2A, 0, 7, Access::kReadWrite, 0>;
+// Bits 7 to 0.
+using LOFFADD_L = Field<0x2B, 0, 8, Access::kReadWrite, 0>;
+// Writing 1 starts a long message, and clears FREL. It is ignored while one runs.
+using LSTA = Field<0x2C, 0, 1, Access::kWriteOnly, 0>;
+// 0: the last byte is kept, there is no queue.
+using POVR = Field<0x2D, 3, 1, Access::kReadOnly, 0>;
+// No byte has come in this link.
+using PEMP = Field<0x2D, 2, 1, Access::kReadOnly, 1>;
+// Its code was wrong.
+using PERR = Field<0x2D, 1, 1, Access::kReadOnly, 0>;
+// It was a special character.
+using PSCI = Field<0x2D, 0, 1, Access::kReadOnly, 0>;
+// The last byte of the pipeline without an error of its code, for sensors behind the encoder.
+using PIPE_D = Field<0x2E, 0, 8, Access::kReadOnly, 0>;
+// What the next write sends; what the last read has brought. Writes while a short message of this
+// host runs are ignored.
+using PC_DATA = Field<0x2F, 0, 8, Access::kReadWrite, 0>;
+// As SLAVE_REG_CTRL, with S_PC_DATA and FRES of EVENT_S.
+using S_SLAVE_REG_CTRL = Field<0x34, 0, 8, Access::kReadWrite, 63>;
 // As PRST of the SDK.
 using SAFE_PRST = Field<0x35, 7, 1, Access::kReadWrite, 0>;
+// As MRST.
+using SAFE_MRST = Field<0x35, 6, 1, Access::kReadWrite, 0>;
 // As SUMMARY.
 using SAFE_SUM = Field<0x36, 0, 8, Access::kReadOnly, 0>;
+// As PC_DATA.
+using S_PC_DATA = Field<0x37, 0, 8, Access::kReadWrite, 0>;
 // Words missing one after another. Written: the number at which the link begins again, 5 bits, 1Fh
 // after a reset; 0 is as 1. SDK: read only.
 using CNT = Field<0x38, 0, 8, Access::kReadWrite, 0>;
+// Kept, without effect.
+using MAXACC = Field<0x39, 0, 8, Access::kReadWrite, 0>;
+// An event and its bit in MASK_S are 1, now. It goes with them.
+using SINT = Field<0x3D, 7, 1, Access::kReadOnly, 0>;
+// A bit of SUMMARY is 1.
+using SSUM = Field<0x3D, 6, 1, Access::kWriteZeroClears, 0>;
+// The code or the CRC of safe channel 1 was wrong.
+using S_SCE = Field<0x3D, 5, 1, Access::kWriteZeroClears, 0>;
+// The encoder had no safe position 1.
+using S_VPOS = Field<0x3D, 4, 1, Access::kWriteZeroClears, 0>;
+// QM was below 14.
+using S_QMLW = Field<0x3D, 3, 1, Access::kWriteZeroClears, 0>;
+// The link began again, or for the first time.
+using S_PRST = Field<0x3D, 2, 1, Access::kWriteZeroClears, 0>;
+// A reset of the messages has ended.
+using S_MIN = Field<0x3D, 1, 1, Access::kWriteZeroClears, 0>;
+// The channel is free for a short message of S_PC_DATA. Its start clears the bit.
+using S_FRES = Field<0x3D, 0, 1, Access::kWriteZeroClears, 0>;
+// 1 lets SSUM set SINT.
+using MSSUM = Field<0x3E, 6, 1, Access::kReadWrite, 0>;
+// 1 lets S_SCE set SINT.
+using MSSCE = Field<0x3E, 5, 1, Access::kReadWrite, 0>;
+// 1 lets S_VPOS set SINT.
+using MSVPOS = Field<0x3E, 4, 1, Access::kReadWrite, 0>;
+// 1 lets S_QMLW set SINT.
+using MSQMLW = Field<0x3E, 3, 1, Access::kReadWrite, 0>;
+// 1 lets S_PRST set SINT.
+using MSPRST = Field<0x3E, 2, 1, Access::kReadWrite, 0>;
+// 1 lets S_MIN set SINT.
+using MSMIN = Field<0x3E, 1, 1, Access::kReadWrite, 0>;
+// 1 lets S_FRES set SINT.
+using MSFRES = Field<0x3E, 0, 1, Access::kReadWrite, 0>;
+// Each value but 3Fh starts a message: bit 7 is 1 for a read, bits 5 to 0 are the address in the
+// encoder, 40h to 7Fh; bit 6 is not looked at, and tells a write to 7Fh from 3Fh. It clears FRES.
+// The value stays while the message runs, in which writes are ignored; 3Fh: nothing runs.
+using SLAVE_REG_CTRL = Field<0x40, 0, 8, Access::kReadWrite, 63>;
 // The number at which the link begins again; 0 is as 1.
 using THRESH = Field<0x41, 0, 5, Access::kReadWrite, 31>;
+// FFh: there is no such limit, and writes are ignored.
+using MAXDEV_THRESH_H = Field<0x42, 0, 8, Access::kReadOnly, 255>;
+// FFh.
+using MAXDEV_THRESH_L = Field<0x43, 0, 8, Access::kReadOnly, 255>;
 // It changes with each vertical frame.
 using TOG2 = Field<0x46, 7, 1, Access::kReadOnly, 0>;
 // A test runs.
@@ -338,6 +630,69 @@ using VPOS2_0 = Field<0x4B, 0, 8, Access::kReadOnly, 0>;
 using VPOSCRC2_H = Field<0x4C, 0, 8, Access::kReadOnly, 0>;
 // As it was received, bits 7 to 0.
 using VPOSCRC2_L = Field<0x4D, 0, 8, Access::kReadOnly, 0>;
+// 0 from an edge of SAMPLE on, then what came last: 2 fast position, 1 safe position 1, 3 safe
+// position 2. SDK: 3 safe position 1.
+using POSTX = Field<0x4E, 0, 2, Access::kReadOnly, 0>;
+// As INT.
+using NOW_INT = Field<0x50, 7, 1, Access::kReadOnly, 0>;
+// SUMMARY with MASK_SUM.
+using NOW_SUM = Field<0x50, 6, 1, Access::kReadOnly, 0>;
+// Of the last vertical frame.
+using NOW_SCE = Field<0x50, 5, 1, Access::kReadOnly, 0>;
+// 1.
+using NOW_ONE = Field<0x50, 4, 1, Access::kReadOnly, 1>;
+// The position is not certain.
+using NOW_POS = Field<0x50, 3, 1, Access::kReadOnly, 1>;
+// Of the last vertical frame.
+using NOW_VPOS = Field<0x50, 2, 1, Access::kReadOnly, 0>;
+// There is no link.
+using NOW_PRST = Field<0x50, 0, 1, Access::kReadOnly, 1>;
+// From the end of a reset of the messages to the next start of one.
+using NOW_MIN = Field<0x51, 5, 1, Access::kReadOnly, 0>;
+// From such an end of a long message to the next start of one.
+using NOW_ANS = Field<0x51, 4, 1, Access::kReadOnly, 0>;
+// QM is below 14, with a link.
+using NOW_QMLW = Field<0x51, 2, 1, Access::kReadOnly, 0>;
+// No long message runs, and one could be sent.
+using NOW_FREL = Field<0x51, 1, 1, Access::kReadOnly, 0>;
+// No short message of PC_DATA runs, and one could be sent.
+using NOW_FRES = Field<0x51, 0, 1, Access::kReadOnly, 0>;
+// As SINT.
+using NOW_SINT = Field<0x52, 7, 1, Access::kReadOnly, 0>;
+// A bit of SUMMARY is 1.
+using NOW_SSUM = Field<0x52, 6, 1, Access::kReadOnly, 0>;
+// Of the last vertical frame, safe channel 1.
+using NOW1_SCE = Field<0x52, 5, 1, Access::kReadOnly, 0>;
+// 1.
+using NOW1_ONE = Field<0x52, 4, 1, Access::kReadOnly, 1>;
+// Of the last vertical frame.
+using NOW1_VPOS = Field<0x52, 2, 1, Access::kReadOnly, 0>;
+// There is no link.
+using NOW1_PRST = Field<0x52, 0, 1, Access::kReadOnly, 1>;
+// As NOW_MIN.
+using NOW1_MIN = Field<0x53, 5, 1, Access::kReadOnly, 0>;
+// QM is below 14, with a link.
+using NOW1_QMLW = Field<0x53, 2, 1, Access::kReadOnly, 0>;
+// No short message of S_PC_DATA runs, and one could be sent.
+using NOW1_FRES = Field<0x53, 0, 1, Access::kReadOnly, 0>;
+// TEST2 or ERR2.
+using NOW2_SUM2 = Field<0x54, 6, 1, Access::kReadOnly, 0>;
+// Of the last vertical frame, safe channel 2.
+using NOW2_SCE2 = Field<0x54, 5, 1, Access::kReadOnly, 0>;
+// 1.
+using NOW2_ONE = Field<0x54, 4, 1, Access::kReadOnly, 1>;
+// The encoder had no safe position 2.
+using NOW2_VPOS2 = Field<0x54, 2, 1, Access::kReadOnly, 0>;
+// There is no link.
+using NOW2_PRST = Field<0x54, 0, 1, Access::kReadOnly, 1>;
+// Of the last good STATUS2.
+using NOW2_TOG2 = Field<0x55, 7, 1, Access::kReadOnly, 0>;
+// Of the last good STATUS2.
+using NOW2_TEST2 = Field<0x55, 6, 1, Access::kReadOnly, 0>;
+// Of the last good STATUS2.
+using NOW2_ERR2 = Field<0x55, 5, 1, Access::kReadOnly, 0>;
+// QM is below 14, with a link.
+using NOW2_QMLW = Field<0x55, 2, 1, Access::kReadOnly, 0>;
 
 }  // namespace dsl::regs
 

@@ -24,9 +24,13 @@ package dsl_regs_pkg;
   localparam logic [7:0] ADDR_MASTER_QM = 8'h03;
   localparam logic [7:0] ADDR_EVENT_H = 8'h04;
   localparam logic [7:0] ADDR_EVENT_L = 8'h05;
+  localparam logic [7:0] ADDR_MASK_H = 8'h06;
+  localparam logic [7:0] ADDR_MASK_L = 8'h07;
+  localparam logic [7:0] ADDR_MASK_SUM = 8'h08;
   localparam logic [7:0] ADDR_EDGES = 8'h09;
   localparam logic [7:0] ADDR_DELAY = 8'h0A;
   localparam logic [7:0] ADDR_CODE_VERSION = 8'h0B;
+  localparam logic [7:0] ADDR_RELEASE = 8'h0C;
   localparam logic [7:0] ADDR_ENC_ID2 = 8'h0D;
   localparam logic [7:0] ADDR_ENC_ID1 = 8'h0E;
   localparam logic [7:0] ADDR_ENC_ID0 = 8'h0F;
@@ -46,10 +50,38 @@ package dsl_regs_pkg;
   localparam logic [7:0] ADDR_VPOS0 = 8'h1D;
   localparam logic [7:0] ADDR_VPOSCRC_H = 8'h1E;
   localparam logic [7:0] ADDR_VPOSCRC_L = 8'h1F;
+  localparam logic [7:0] ADDR_PC_BUFFER0 = 8'h20;
+  localparam logic [7:0] ADDR_PC_BUFFER1 = 8'h21;
+  localparam logic [7:0] ADDR_PC_BUFFER2 = 8'h22;
+  localparam logic [7:0] ADDR_PC_BUFFER3 = 8'h23;
+  localparam logic [7:0] ADDR_PC_BUFFER4 = 8'h24;
+  localparam logic [7:0] ADDR_PC_BUFFER5 = 8'h25;
+  localparam logic [7:0] ADDR_PC_BUFFER6 = 8'h26;
+  localparam logic [7:0] ADDR_PC_BUFFER7 = 8'h27;
+  localparam logic [7:0] ADDR_PC_ADD_H = 8'h28;
+  localparam logic [7:0] ADDR_PC_ADD_L = 8'h29;
+  localparam logic [7:0] ADDR_PC_OFF_H = 8'h2A;
+  localparam logic [7:0] ADDR_PC_OFF_L = 8'h2B;
+  localparam logic [7:0] ADDR_PC_CTRL = 8'h2C;
+  localparam logic [7:0] ADDR_PIPE_S = 8'h2D;
+  localparam logic [7:0] ADDR_PIPE_D = 8'h2E;
+  localparam logic [7:0] ADDR_PC_DATA = 8'h2F;
+  localparam logic [7:0] ADDR_S_SLAVE_REG_CTRL = 8'h34;
   localparam logic [7:0] ADDR_SAFE_CTRL = 8'h35;
   localparam logic [7:0] ADDR_SAFE_SUM = 8'h36;
+  localparam logic [7:0] ADDR_S_PC_DATA = 8'h37;
   localparam logic [7:0] ADDR_ACC_ERR_CNT = 8'h38;
+  localparam logic [7:0] ADDR_MAXACC = 8'h39;
+  localparam logic [7:0] ADDR_MAXDEV_H = 8'h3A;
+  localparam logic [7:0] ADDR_MAXDEV_L = 8'h3B;
+  localparam logic [7:0] ADDR_EVENT_S = 8'h3D;
+  localparam logic [7:0] ADDR_MASK_S = 8'h3E;
+  localparam logic [7:0] ADDR_SLAVE_REG_CTRL = 8'h40;
   localparam logic [7:0] ADDR_ACC_ERR_CNT_THRESH = 8'h41;
+  localparam logic [7:0] ADDR_MAXDEV_THRESH_H = 8'h42;
+  localparam logic [7:0] ADDR_MAXDEV_THRESH_L = 8'h43;
+  localparam logic [7:0] ADDR_VERSION2 = 8'h44;
+  localparam logic [7:0] ADDR_ENC2_ID = 8'h45;
   localparam logic [7:0] ADDR_STATUS2 = 8'h46;
   localparam logic [7:0] ADDR_VPOS2_4 = 8'h47;
   localparam logic [7:0] ADDR_VPOS2_3 = 8'h48;
@@ -58,12 +90,19 @@ package dsl_regs_pkg;
   localparam logic [7:0] ADDR_VPOS2_0 = 8'h4B;
   localparam logic [7:0] ADDR_VPOSCRC2_H = 8'h4C;
   localparam logic [7:0] ADDR_VPOSCRC2_L = 8'h4D;
+  localparam logic [7:0] ADDR_POSTX = 8'h4E;
+  localparam logic [7:0] ADDR_ONLINE_D_H = 8'h50;
+  localparam logic [7:0] ADDR_ONLINE_D_L = 8'h51;
+  localparam logic [7:0] ADDR_ONLINE_1_H = 8'h52;
+  localparam logic [7:0] ADDR_ONLINE_1_L = 8'h53;
+  localparam logic [7:0] ADDR_ONLINE_2_H = 8'h54;
+  localparam logic [7:0] ADDR_ONLINE_2_L = 8'h55;
 
 
   // ---- Registers ------------------------------------------------------------------------------
 
   localparam logic [7:0] RESET_SYS_CTRL = 8'h00;
-  localparam logic [7:0] WMASK_SYS_CTRL = 8'h81;
+  localparam logic [7:0] WMASK_SYS_CTRL = 8'hC1;
   localparam logic [7:0] CONST_SYS_CTRL = 8'h00;
   localparam logic [7:0] RESET_SYNC_CTRL = 8'h01;
   localparam logic [7:0] WMASK_SYNC_CTRL = 8'hFF;
@@ -75,8 +114,17 @@ package dsl_regs_pkg;
   localparam logic [7:0] WMASK_EVENT_H = 8'h6D;
   localparam logic [7:0] CONST_EVENT_H = 8'h00;
   localparam logic [7:0] RESET_EVENT_L = 8'h00;
-  localparam logic [7:0] WMASK_EVENT_L = 8'h04;
+  localparam logic [7:0] WMASK_EVENT_L = 8'h37;
   localparam logic [7:0] CONST_EVENT_L = 8'h00;
+  localparam logic [7:0] RESET_MASK_H = 8'h00;
+  localparam logic [7:0] WMASK_MASK_H = 8'h6D;
+  localparam logic [7:0] CONST_MASK_H = 8'h00;
+  localparam logic [7:0] RESET_MASK_L = 8'h00;
+  localparam logic [7:0] WMASK_MASK_L = 8'h37;
+  localparam logic [7:0] CONST_MASK_L = 8'h00;
+  localparam logic [7:0] RESET_MASK_SUM = 8'h00;
+  localparam logic [7:0] WMASK_MASK_SUM = 8'hFF;
+  localparam logic [7:0] CONST_MASK_SUM = 8'h00;
   localparam logic [7:0] RESET_EDGES = 8'h00;
   localparam logic [7:0] WMASK_EDGES = 8'h00;
   localparam logic [7:0] CONST_EDGES = 8'h00;
@@ -86,6 +134,9 @@ package dsl_regs_pkg;
   localparam logic [7:0] RESET_CODE_VERSION = 8'h56;
   localparam logic [7:0] WMASK_CODE_VERSION = 8'h00;
   localparam logic [7:0] CONST_CODE_VERSION = 8'h00;
+  localparam logic [7:0] RESET_RELEASE = 8'h01;
+  localparam logic [7:0] WMASK_RELEASE = 8'h00;
+  localparam logic [7:0] CONST_RELEASE = 8'h00;
   localparam logic [7:0] RESET_ENC_ID2 = 8'h00;
   localparam logic [7:0] WMASK_ENC_ID2 = 8'h00;
   localparam logic [7:0] CONST_ENC_ID2 = 8'h00;
@@ -143,18 +194,102 @@ package dsl_regs_pkg;
   localparam logic [7:0] RESET_VPOSCRC_L = 8'h00;
   localparam logic [7:0] WMASK_VPOSCRC_L = 8'h00;
   localparam logic [7:0] CONST_VPOSCRC_L = 8'h00;
+  localparam logic [7:0] RESET_PC_BUFFER0 = 8'h00;
+  localparam logic [7:0] WMASK_PC_BUFFER0 = 8'hFF;
+  localparam logic [7:0] CONST_PC_BUFFER0 = 8'h00;
+  localparam logic [7:0] RESET_PC_BUFFER1 = 8'h00;
+  localparam logic [7:0] WMASK_PC_BUFFER1 = 8'hFF;
+  localparam logic [7:0] CONST_PC_BUFFER1 = 8'h00;
+  localparam logic [7:0] RESET_PC_BUFFER2 = 8'h00;
+  localparam logic [7:0] WMASK_PC_BUFFER2 = 8'hFF;
+  localparam logic [7:0] CONST_PC_BUFFER2 = 8'h00;
+  localparam logic [7:0] RESET_PC_BUFFER3 = 8'h00;
+  localparam logic [7:0] WMASK_PC_BUFFER3 = 8'hFF;
+  localparam logic [7:0] CONST_PC_BUFFER3 = 8'h00;
+  localparam logic [7:0] RESET_PC_BUFFER4 = 8'h00;
+  localparam logic [7:0] WMASK_PC_BUFFER4 = 8'hFF;
+  localparam logic [7:0] CONST_PC_BUFFER4 = 8'h00;
+  localparam logic [7:0] RESET_PC_BUFFER5 = 8'h00;
+  localparam logic [7:0] WMASK_PC_BUFFER5 = 8'hFF;
+  localparam logic [7:0] CONST_PC_BUFFER5 = 8'h00;
+  localparam logic [7:0] RESET_PC_BUFFER6 = 8'h00;
+  localparam logic [7:0] WMASK_PC_BUFFER6 = 8'hFF;
+  localparam logic [7:0] CONST_PC_BUFFER6 = 8'h00;
+  localparam logic [7:0] RESET_PC_BUFFER7 = 8'h00;
+  localparam logic [7:0] WMASK_PC_BUFFER7 = 8'hFF;
+  localparam logic [7:0] CONST_PC_BUFFER7 = 8'h00;
+  localparam logic [7:0] RESET_PC_ADD_H = 8'h80;
+  localparam logic [7:0] WMASK_PC_ADD_H = 8'h7F;
+  localparam logic [7:0] CONST_PC_ADD_H = 8'h00;
+  localparam logic [7:0] RESET_PC_ADD_L = 8'h00;
+  localparam logic [7:0] WMASK_PC_ADD_L = 8'hFF;
+  localparam logic [7:0] CONST_PC_ADD_L = 8'h00;
+  localparam logic [7:0] RESET_PC_OFF_H = 8'h80;
+  localparam logic [7:0] WMASK_PC_OFF_H = 8'h7F;
+  localparam logic [7:0] CONST_PC_OFF_H = 8'h00;
+  localparam logic [7:0] RESET_PC_OFF_L = 8'h00;
+  localparam logic [7:0] WMASK_PC_OFF_L = 8'hFF;
+  localparam logic [7:0] CONST_PC_OFF_L = 8'h00;
+  localparam logic [7:0] RESET_PC_CTRL = 8'h00;
+  localparam logic [7:0] WMASK_PC_CTRL = 8'h01;
+  localparam logic [7:0] CONST_PC_CTRL = 8'h00;
+  localparam logic [7:0] RESET_PIPE_S = 8'h04;
+  localparam logic [7:0] WMASK_PIPE_S = 8'h00;
+  localparam logic [7:0] CONST_PIPE_S = 8'h00;
+  localparam logic [7:0] RESET_PIPE_D = 8'h00;
+  localparam logic [7:0] WMASK_PIPE_D = 8'h00;
+  localparam logic [7:0] CONST_PIPE_D = 8'h00;
+  localparam logic [7:0] RESET_PC_DATA = 8'h00;
+  localparam logic [7:0] WMASK_PC_DATA = 8'hFF;
+  localparam logic [7:0] CONST_PC_DATA = 8'h00;
+  localparam logic [7:0] RESET_S_SLAVE_REG_CTRL = 8'h3F;
+  localparam logic [7:0] WMASK_S_SLAVE_REG_CTRL = 8'hFF;
+  localparam logic [7:0] CONST_S_SLAVE_REG_CTRL = 8'h00;
   localparam logic [7:0] RESET_SAFE_CTRL = 8'h00;
-  localparam logic [7:0] WMASK_SAFE_CTRL = 8'h80;
+  localparam logic [7:0] WMASK_SAFE_CTRL = 8'hC0;
   localparam logic [7:0] CONST_SAFE_CTRL = 8'h00;
   localparam logic [7:0] RESET_SAFE_SUM = 8'h00;
   localparam logic [7:0] WMASK_SAFE_SUM = 8'h00;
   localparam logic [7:0] CONST_SAFE_SUM = 8'h00;
+  localparam logic [7:0] RESET_S_PC_DATA = 8'h00;
+  localparam logic [7:0] WMASK_S_PC_DATA = 8'hFF;
+  localparam logic [7:0] CONST_S_PC_DATA = 8'h00;
   localparam logic [7:0] RESET_ACC_ERR_CNT = 8'h00;
   localparam logic [7:0] WMASK_ACC_ERR_CNT = 8'hFF;
   localparam logic [7:0] CONST_ACC_ERR_CNT = 8'h00;
+  localparam logic [7:0] RESET_MAXACC = 8'h00;
+  localparam logic [7:0] WMASK_MAXACC = 8'hFF;
+  localparam logic [7:0] CONST_MAXACC = 8'h00;
+  localparam logic [7:0] RESET_MAXDEV_H = 8'h00;
+  localparam logic [7:0] WMASK_MAXDEV_H = 8'h00;
+  localparam logic [7:0] CONST_MAXDEV_H = 8'hFF;
+  localparam logic [7:0] RESET_MAXDEV_L = 8'h00;
+  localparam logic [7:0] WMASK_MAXDEV_L = 8'h00;
+  localparam logic [7:0] CONST_MAXDEV_L = 8'hFF;
+  localparam logic [7:0] RESET_EVENT_S = 8'h00;
+  localparam logic [7:0] WMASK_EVENT_S = 8'h7F;
+  localparam logic [7:0] CONST_EVENT_S = 8'h00;
+  localparam logic [7:0] RESET_MASK_S = 8'h00;
+  localparam logic [7:0] WMASK_MASK_S = 8'h7F;
+  localparam logic [7:0] CONST_MASK_S = 8'h00;
+  localparam logic [7:0] RESET_SLAVE_REG_CTRL = 8'h3F;
+  localparam logic [7:0] WMASK_SLAVE_REG_CTRL = 8'hFF;
+  localparam logic [7:0] CONST_SLAVE_REG_CTRL = 8'h00;
   localparam logic [7:0] RESET_ACC_ERR_CNT_THRESH = 8'h1F;
   localparam logic [7:0] WMASK_ACC_ERR_CNT_THRESH = 8'h1F;
   localparam logic [7:0] CONST_ACC_ERR_CNT_THRESH = 8'h00;
+  localparam logic [7:0] RESET_MAXDEV_THRESH_H = 8'hFF;
+  localparam logic [7:0] WMASK_MAXDEV_THRESH_H = 8'h00;
+  localparam logic [7:0] CONST_MAXDEV_THRESH_H = 8'h00;
+  localparam logic [7:0] RESET_MAXDEV_THRESH_L = 8'hFF;
+  localparam logic [7:0] WMASK_MAXDEV_THRESH_L = 8'h00;
+  localparam logic [7:0] CONST_MAXDEV_THRESH_L = 8'h00;
+  localparam logic [7:0] RESET_VERSION2 = 8'h00;
+  localparam logic [7:0] WMASK_VERSION2 = 8'h00;
+  localparam logic [7:0] CONST_VERSION2 = 8'hFF;
+  localparam logic [7:0] RESET_ENC2_ID = 8'h00;
+  localparam logic [7:0] WMASK_ENC2_ID = 8'h00;
+  localparam logic [7:0] CONST_ENC2_ID = 8'hFF;
   localparam logic [7:0] RESET_STATUS2 = 8'h00;
   localparam logic [7:0] WMASK_STATUS2 = 8'h00;
   localparam logic [7:0] CONST_STATUS2 = 8'h00;
@@ -179,6 +314,27 @@ package dsl_regs_pkg;
   localparam logic [7:0] RESET_VPOSCRC2_L = 8'h00;
   localparam logic [7:0] WMASK_VPOSCRC2_L = 8'h00;
   localparam logic [7:0] CONST_VPOSCRC2_L = 8'h00;
+  localparam logic [7:0] RESET_POSTX = 8'h00;
+  localparam logic [7:0] WMASK_POSTX = 8'h00;
+  localparam logic [7:0] CONST_POSTX = 8'h00;
+  localparam logic [7:0] RESET_ONLINE_D_H = 8'h19;
+  localparam logic [7:0] WMASK_ONLINE_D_H = 8'h00;
+  localparam logic [7:0] CONST_ONLINE_D_H = 8'h00;
+  localparam logic [7:0] RESET_ONLINE_D_L = 8'h00;
+  localparam logic [7:0] WMASK_ONLINE_D_L = 8'h00;
+  localparam logic [7:0] CONST_ONLINE_D_L = 8'h00;
+  localparam logic [7:0] RESET_ONLINE_1_H = 8'h11;
+  localparam logic [7:0] WMASK_ONLINE_1_H = 8'h00;
+  localparam logic [7:0] CONST_ONLINE_1_H = 8'h00;
+  localparam logic [7:0] RESET_ONLINE_1_L = 8'h00;
+  localparam logic [7:0] WMASK_ONLINE_1_L = 8'h00;
+  localparam logic [7:0] CONST_ONLINE_1_L = 8'h00;
+  localparam logic [7:0] RESET_ONLINE_2_H = 8'h11;
+  localparam logic [7:0] WMASK_ONLINE_2_H = 8'h00;
+  localparam logic [7:0] CONST_ONLINE_2_H = 8'h00;
+  localparam logic [7:0] RESET_ONLINE_2_L = 8'h00;
+  localparam logic [7:0] WMASK_ONLINE_2_L = 8'h00;
+  localparam logic [7:0] CONST_ONLINE_2_L = 8'h00;
 
   // ---- Single fields --------------------------------------------------------------------------
 
@@ -189,6 +345,14 @@ package dsl_regs_pkg;
   localparam logic [31:0] PRST_W = 32'd1;
   localparam logic [7:0] PRST_MASK = 8'h80;
   localparam logic [0:0] PRST_RESET = 1'd0;
+
+  // Writing 1 resets the messages: INIT is sent up to the acknowledge of the encoder. It reads 1 up
+  // to then, and clears itself.
+  localparam logic [7:0] MRST_ADDR = 8'h00;
+  localparam logic [31:0] MRST_LSB = 32'd6;
+  localparam logic [31:0] MRST_W = 32'd1;
+  localparam logic [7:0] MRST_MASK = 8'h40;
+  localparam logic [0:0] MRST_RESET = 1'd0;
 
   // 1: the driver stays off.
   localparam logic [7:0] OEN_ADDR = 8'h00;
@@ -218,7 +382,14 @@ package dsl_regs_pkg;
   localparam logic [7:0] QM_MASK = 8'h0F;
   localparam logic [3:0] QM_RESET = 4'd0;
 
-  // A bit of SUMMARY is 1.
+  // An event and its bit in MASK_H or MASK_L are 1, now. It goes with them.
+  localparam logic [7:0] INT_ADDR = 8'h04;
+  localparam logic [31:0] INT_LSB = 32'd7;
+  localparam logic [31:0] INT_W = 32'd1;
+  localparam logic [7:0] INT_MASK = 8'h80;
+  localparam logic [0:0] INT_RESET = 1'd0;
+
+  // A bit of SUMMARY that MASK_SUM selects is 1.
   localparam logic [7:0] SUM_ADDR = 8'h04;
   localparam logic [31:0] SUM_LSB = 32'd6;
   localparam logic [31:0] SUM_W = 32'd1;
@@ -253,12 +424,117 @@ package dsl_regs_pkg;
   localparam logic [7:0] EVENT_PRST_MASK = 8'h01;
   localparam logic [0:0] EVENT_PRST_RESET = 1'd0;
 
+  // A reset of the messages has ended.
+  localparam logic [7:0] MIN_ADDR = 8'h05;
+  localparam logic [31:0] MIN_LSB = 32'd5;
+  localparam logic [31:0] MIN_W = 32'd1;
+  localparam logic [7:0] MIN_MASK = 8'h20;
+  localparam logic [0:0] MIN_RESET = 1'd0;
+
+  // A long message ended without its answer: NAK, a broken answer, or the end of the link.
+  localparam logic [7:0] ANS_ADDR = 8'h05;
+  localparam logic [31:0] ANS_LSB = 32'd4;
+  localparam logic [31:0] ANS_W = 32'd1;
+  localparam logic [7:0] ANS_MASK = 8'h10;
+  localparam logic [0:0] ANS_RESET = 1'd0;
+
   // QM was below 14.
   localparam logic [7:0] QMLW_ADDR = 8'h05;
   localparam logic [31:0] QMLW_LSB = 32'd2;
   localparam logic [31:0] QMLW_W = 32'd1;
   localparam logic [7:0] QMLW_MASK = 8'h04;
   localparam logic [0:0] QMLW_RESET = 1'd0;
+
+  // The channel is free for a long message. Its start clears the bit.
+  localparam logic [7:0] FREL_ADDR = 8'h05;
+  localparam logic [31:0] FREL_LSB = 32'd1;
+  localparam logic [31:0] FREL_W = 32'd1;
+  localparam logic [7:0] FREL_MASK = 8'h02;
+  localparam logic [0:0] FREL_RESET = 1'd0;
+
+  // It is free for a short message of PC_DATA. Its start clears the bit.
+  localparam logic [7:0] FRES_ADDR = 8'h05;
+  localparam logic [31:0] FRES_LSB = 32'd0;
+  localparam logic [31:0] FRES_W = 32'd1;
+  localparam logic [7:0] FRES_MASK = 8'h01;
+  localparam logic [0:0] FRES_RESET = 1'd0;
+
+  // 1 lets SUM set INT.
+  localparam logic [7:0] MSUM_ADDR = 8'h06;
+  localparam logic [31:0] MSUM_LSB = 32'd6;
+  localparam logic [31:0] MSUM_W = 32'd1;
+  localparam logic [7:0] MSUM_MASK = 8'h40;
+  localparam logic [0:0] MSUM_RESET = 1'd0;
+
+  // 1 lets SCE set INT.
+  localparam logic [7:0] MSCE_ADDR = 8'h06;
+  localparam logic [31:0] MSCE_LSB = 32'd5;
+  localparam logic [31:0] MSCE_W = 32'd1;
+  localparam logic [7:0] MSCE_MASK = 8'h20;
+  localparam logic [0:0] MSCE_RESET = 1'd0;
+
+  // 1 lets POS set INT.
+  localparam logic [7:0] MPOS_ADDR = 8'h06;
+  localparam logic [31:0] MPOS_LSB = 32'd3;
+  localparam logic [31:0] MPOS_W = 32'd1;
+  localparam logic [7:0] MPOS_MASK = 8'h08;
+  localparam logic [0:0] MPOS_RESET = 1'd0;
+
+  // 1 lets VPOS set INT.
+  localparam logic [7:0] MVPOS_ADDR = 8'h06;
+  localparam logic [31:0] MVPOS_LSB = 32'd2;
+  localparam logic [31:0] MVPOS_W = 32'd1;
+  localparam logic [7:0] MVPOS_MASK = 8'h04;
+  localparam logic [0:0] MVPOS_RESET = 1'd0;
+
+  // 1 lets EVENT_PRST set INT.
+  localparam logic [7:0] MPRST_ADDR = 8'h06;
+  localparam logic [31:0] MPRST_LSB = 32'd0;
+  localparam logic [31:0] MPRST_W = 32'd1;
+  localparam logic [7:0] MPRST_MASK = 8'h01;
+  localparam logic [0:0] MPRST_RESET = 1'd0;
+
+  // 1 lets MIN set INT.
+  localparam logic [7:0] MMIN_ADDR = 8'h07;
+  localparam logic [31:0] MMIN_LSB = 32'd5;
+  localparam logic [31:0] MMIN_W = 32'd1;
+  localparam logic [7:0] MMIN_MASK = 8'h20;
+  localparam logic [0:0] MMIN_RESET = 1'd0;
+
+  // 1 lets ANS set INT.
+  localparam logic [7:0] MANS_ADDR = 8'h07;
+  localparam logic [31:0] MANS_LSB = 32'd4;
+  localparam logic [31:0] MANS_W = 32'd1;
+  localparam logic [7:0] MANS_MASK = 8'h10;
+  localparam logic [0:0] MANS_RESET = 1'd0;
+
+  // 1 lets QMLW set INT.
+  localparam logic [7:0] MQMLW_ADDR = 8'h07;
+  localparam logic [31:0] MQMLW_LSB = 32'd2;
+  localparam logic [31:0] MQMLW_W = 32'd1;
+  localparam logic [7:0] MQMLW_MASK = 8'h04;
+  localparam logic [0:0] MQMLW_RESET = 1'd0;
+
+  // 1 lets FREL set INT.
+  localparam logic [7:0] MFREL_ADDR = 8'h07;
+  localparam logic [31:0] MFREL_LSB = 32'd1;
+  localparam logic [31:0] MFREL_W = 32'd1;
+  localparam logic [7:0] MFREL_MASK = 8'h02;
+  localparam logic [0:0] MFREL_RESET = 1'd0;
+
+  // 1 lets FRES set INT.
+  localparam logic [7:0] MFRES_ADDR = 8'h07;
+  localparam logic [31:0] MFRES_LSB = 32'd0;
+  localparam logic [31:0] MFRES_W = 32'd1;
+  localparam logic [7:0] MFRES_MASK = 8'h01;
+  localparam logic [0:0] MFRES_RESET = 1'd0;
+
+  // Bits as SUMMARY: 1 lets the bit set SUM.
+  localparam logic [7:0] MASK_SUM_ADDR = 8'h08;
+  localparam logic [31:0] MASK_SUM_LSB = 32'd0;
+  localparam logic [31:0] MASK_SUM_W = 32'd8;
+  localparam logic [7:0] MASK_SUM_MASK = 8'hFF;
+  localparam logic [7:0] MASK_SUM_RESET = 8'd0;
 
   // The eighths of a bit in which the training had an edge: bit 0 is the first one.
   localparam logic [7:0] EDGES_ADDR = 8'h09;
@@ -287,6 +563,13 @@ package dsl_regs_pkg;
   localparam logic [31:0] CODE_VERSION_W = 32'd8;
   localparam logic [7:0] CODE_VERSION_MASK = 8'hFF;
   localparam logic [7:0] CODE_VERSION_RESET = 8'd86;
+
+  // 01h. The version of this master is in VERSION of the page.
+  localparam logic [7:0] RELEASE_ADDR = 8'h0C;
+  localparam logic [31:0] RELEASE_LSB = 32'd0;
+  localparam logic [31:0] RELEASE_W = 32'd8;
+  localparam logic [7:0] RELEASE_MASK = 8'hFF;
+  localparam logic [7:0] RELEASE_RESET = 8'd1;
 
   // More would follow.
   localparam logic [7:0] ENC_ID_MORE_ADDR = 8'h0D;
@@ -449,6 +732,190 @@ package dsl_regs_pkg;
   localparam logic [7:0] VPOSCRC_L_MASK = 8'hFF;
   localparam logic [7:0] VPOSCRC_L_RESET = 8'd0;
 
+  // The byte that comes first on the line. Writes while a long message runs are ignored; an answer
+  // changes the bytes that it brings, all at once.
+  localparam logic [7:0] PC_BUFFER0_ADDR = 8'h20;
+  localparam logic [31:0] PC_BUFFER0_LSB = 32'd0;
+  localparam logic [31:0] PC_BUFFER0_W = 32'd8;
+  localparam logic [7:0] PC_BUFFER0_MASK = 8'hFF;
+  localparam logic [7:0] PC_BUFFER0_RESET = 8'd0;
+
+  // As PC_BUFFER0.
+  localparam logic [7:0] PC_BUFFER1_ADDR = 8'h21;
+  localparam logic [31:0] PC_BUFFER1_LSB = 32'd0;
+  localparam logic [31:0] PC_BUFFER1_W = 32'd8;
+  localparam logic [7:0] PC_BUFFER1_MASK = 8'hFF;
+  localparam logic [7:0] PC_BUFFER1_RESET = 8'd0;
+
+  // As PC_BUFFER0.
+  localparam logic [7:0] PC_BUFFER2_ADDR = 8'h22;
+  localparam logic [31:0] PC_BUFFER2_LSB = 32'd0;
+  localparam logic [31:0] PC_BUFFER2_W = 32'd8;
+  localparam logic [7:0] PC_BUFFER2_MASK = 8'hFF;
+  localparam logic [7:0] PC_BUFFER2_RESET = 8'd0;
+
+  // As PC_BUFFER0.
+  localparam logic [7:0] PC_BUFFER3_ADDR = 8'h23;
+  localparam logic [31:0] PC_BUFFER3_LSB = 32'd0;
+  localparam logic [31:0] PC_BUFFER3_W = 32'd8;
+  localparam logic [7:0] PC_BUFFER3_MASK = 8'hFF;
+  localparam logic [7:0] PC_BUFFER3_RESET = 8'd0;
+
+  // As PC_BUFFER0.
+  localparam logic [7:0] PC_BUFFER4_ADDR = 8'h24;
+  localparam logic [31:0] PC_BUFFER4_LSB = 32'd0;
+  localparam logic [31:0] PC_BUFFER4_W = 32'd8;
+  localparam logic [7:0] PC_BUFFER4_MASK = 8'hFF;
+  localparam logic [7:0] PC_BUFFER4_RESET = 8'd0;
+
+  // As PC_BUFFER0.
+  localparam logic [7:0] PC_BUFFER5_ADDR = 8'h25;
+  localparam logic [31:0] PC_BUFFER5_LSB = 32'd0;
+  localparam logic [31:0] PC_BUFFER5_W = 32'd8;
+  localparam logic [7:0] PC_BUFFER5_MASK = 8'hFF;
+  localparam logic [7:0] PC_BUFFER5_RESET = 8'd0;
+
+  // As PC_BUFFER0.
+  localparam logic [7:0] PC_BUFFER6_ADDR = 8'h26;
+  localparam logic [31:0] PC_BUFFER6_LSB = 32'd0;
+  localparam logic [31:0] PC_BUFFER6_W = 32'd8;
+  localparam logic [7:0] PC_BUFFER6_MASK = 8'hFF;
+  localparam logic [7:0] PC_BUFFER6_RESET = 8'd0;
+
+  // As PC_BUFFER0.
+  localparam logic [7:0] PC_BUFFER7_ADDR = 8'h27;
+  localparam logic [31:0] PC_BUFFER7_LSB = 32'd0;
+  localparam logic [31:0] PC_BUFFER7_W = 32'd8;
+  localparam logic [7:0] PC_BUFFER7_MASK = 8'hFF;
+  localparam logic [7:0] PC_BUFFER7_RESET = 8'd0;
+
+  // 1: a long message.
+  localparam logic [7:0] LID_ADDR = 8'h28;
+  localparam logic [31:0] LID_LSB = 32'd7;
+  localparam logic [31:0] LID_W = 32'd1;
+  localparam logic [7:0] LID_MASK = 8'h80;
+  localparam logic [0:0] LID_RESET = 1'd1;
+
+  // 1: a read.
+  localparam logic [7:0] LRW_ADDR = 8'h28;
+  localparam logic [31:0] LRW_LSB = 32'd6;
+  localparam logic [31:0] LRW_W = 32'd1;
+  localparam logic [7:0] LRW_MASK = 8'h40;
+  localparam logic [0:0] LRW_RESET = 1'd0;
+
+  // A request: an offset follows. An answer: an error.
+  localparam logic [7:0] LOFF_ADDR = 8'h28;
+  localparam logic [31:0] LOFF_LSB = 32'd5;
+  localparam logic [31:0] LOFF_W = 32'd1;
+  localparam logic [7:0] LOFF_MASK = 8'h20;
+  localparam logic [0:0] LOFF_RESET = 1'd0;
+
+  // 1: indirect.
+  localparam logic [7:0] LIND_ADDR = 8'h28;
+  localparam logic [31:0] LIND_LSB = 32'd4;
+  localparam logic [31:0] LIND_W = 32'd1;
+  localparam logic [7:0] LIND_MASK = 8'h10;
+  localparam logic [0:0] LIND_RESET = 1'd0;
+
+  // 0, 2, 4 or 8 bytes of data.
+  localparam logic [7:0] LLEN_ADDR = 8'h28;
+  localparam logic [31:0] LLEN_LSB = 32'd2;
+  localparam logic [31:0] LLEN_W = 32'd2;
+  localparam logic [7:0] LLEN_MASK = 8'h0C;
+  localparam logic [1:0] LLEN_RESET = 2'd0;
+
+  // Bits 9 and 8.
+  localparam logic [7:0] LADD_H_ADDR = 8'h28;
+  localparam logic [31:0] LADD_H_LSB = 32'd0;
+  localparam logic [31:0] LADD_H_W = 32'd2;
+  localparam logic [7:0] LADD_H_MASK = 8'h03;
+  localparam logic [1:0] LADD_H_RESET = 2'd0;
+
+  // Bits 7 to 0.
+  localparam logic [7:0] LADD_L_ADDR = 8'h29;
+  localparam logic [31:0] LADD_L_LSB = 32'd0;
+  localparam logic [31:0] LADD_L_W = 32'd8;
+  localparam logic [7:0] LADD_L_MASK = 8'hFF;
+  localparam logic [7:0] LADD_L_RESET = 8'd0;
+
+  // 1.
+  localparam logic [7:0] OFF_LID_ADDR = 8'h2A;
+  localparam logic [31:0] OFF_LID_LSB = 32'd7;
+  localparam logic [31:0] OFF_LID_W = 32'd1;
+  localparam logic [7:0] OFF_LID_MASK = 8'h80;
+  localparam logic [0:0] OFF_LID_RESET = 1'd1;
+
+  // Bits 14 to 8.
+  localparam logic [7:0] LOFFADD_H_ADDR = 8'h2A;
+  localparam logic [31:0] LOFFADD_H_LSB = 32'd0;
+  localparam logic [31:0] LOFFADD_H_W = 32'd7;
+  localparam logic [7:0] LOFFADD_H_MASK = 8'h7F;
+  localparam logic [6:0] LOFFADD_H_RESET = 7'd0;
+
+  // Bits 7 to 0.
+  localparam logic [7:0] LOFFADD_L_ADDR = 8'h2B;
+  localparam logic [31:0] LOFFADD_L_LSB = 32'd0;
+  localparam logic [31:0] LOFFADD_L_W = 32'd8;
+  localparam logic [7:0] LOFFADD_L_MASK = 8'hFF;
+  localparam logic [7:0] LOFFADD_L_RESET = 8'd0;
+
+  // Writing 1 starts a long message, and clears FREL. It is ignored while one runs.
+  localparam logic [7:0] LSTA_ADDR = 8'h2C;
+  localparam logic [31:0] LSTA_LSB = 32'd0;
+  localparam logic [31:0] LSTA_W = 32'd1;
+  localparam logic [7:0] LSTA_MASK = 8'h01;
+  localparam logic [0:0] LSTA_RESET = 1'd0;
+
+  // 0: the last byte is kept, there is no queue.
+  localparam logic [7:0] POVR_ADDR = 8'h2D;
+  localparam logic [31:0] POVR_LSB = 32'd3;
+  localparam logic [31:0] POVR_W = 32'd1;
+  localparam logic [7:0] POVR_MASK = 8'h08;
+  localparam logic [0:0] POVR_RESET = 1'd0;
+
+  // No byte has come in this link.
+  localparam logic [7:0] PEMP_ADDR = 8'h2D;
+  localparam logic [31:0] PEMP_LSB = 32'd2;
+  localparam logic [31:0] PEMP_W = 32'd1;
+  localparam logic [7:0] PEMP_MASK = 8'h04;
+  localparam logic [0:0] PEMP_RESET = 1'd1;
+
+  // Its code was wrong.
+  localparam logic [7:0] PERR_ADDR = 8'h2D;
+  localparam logic [31:0] PERR_LSB = 32'd1;
+  localparam logic [31:0] PERR_W = 32'd1;
+  localparam logic [7:0] PERR_MASK = 8'h02;
+  localparam logic [0:0] PERR_RESET = 1'd0;
+
+  // It was a special character.
+  localparam logic [7:0] PSCI_ADDR = 8'h2D;
+  localparam logic [31:0] PSCI_LSB = 32'd0;
+  localparam logic [31:0] PSCI_W = 32'd1;
+  localparam logic [7:0] PSCI_MASK = 8'h01;
+  localparam logic [0:0] PSCI_RESET = 1'd0;
+
+  // The last byte of the pipeline without an error of its code, for sensors behind the encoder.
+  localparam logic [7:0] PIPE_D_ADDR = 8'h2E;
+  localparam logic [31:0] PIPE_D_LSB = 32'd0;
+  localparam logic [31:0] PIPE_D_W = 32'd8;
+  localparam logic [7:0] PIPE_D_MASK = 8'hFF;
+  localparam logic [7:0] PIPE_D_RESET = 8'd0;
+
+  // What the next write sends; what the last read has brought. Writes while a short message of this
+  // host runs are ignored.
+  localparam logic [7:0] PC_DATA_ADDR = 8'h2F;
+  localparam logic [31:0] PC_DATA_LSB = 32'd0;
+  localparam logic [31:0] PC_DATA_W = 32'd8;
+  localparam logic [7:0] PC_DATA_MASK = 8'hFF;
+  localparam logic [7:0] PC_DATA_RESET = 8'd0;
+
+  // As SLAVE_REG_CTRL, with S_PC_DATA and FRES of EVENT_S.
+  localparam logic [7:0] S_SLAVE_REG_CTRL_ADDR = 8'h34;
+  localparam logic [31:0] S_SLAVE_REG_CTRL_LSB = 32'd0;
+  localparam logic [31:0] S_SLAVE_REG_CTRL_W = 32'd8;
+  localparam logic [7:0] S_SLAVE_REG_CTRL_MASK = 8'hFF;
+  localparam logic [7:0] S_SLAVE_REG_CTRL_RESET = 8'd63;
+
   // As PRST of the SDK.
   localparam logic [7:0] SAFE_PRST_ADDR = 8'h35;
   localparam logic [31:0] SAFE_PRST_LSB = 32'd7;
@@ -456,12 +923,26 @@ package dsl_regs_pkg;
   localparam logic [7:0] SAFE_PRST_MASK = 8'h80;
   localparam logic [0:0] SAFE_PRST_RESET = 1'd0;
 
+  // As MRST.
+  localparam logic [7:0] SAFE_MRST_ADDR = 8'h35;
+  localparam logic [31:0] SAFE_MRST_LSB = 32'd6;
+  localparam logic [31:0] SAFE_MRST_W = 32'd1;
+  localparam logic [7:0] SAFE_MRST_MASK = 8'h40;
+  localparam logic [0:0] SAFE_MRST_RESET = 1'd0;
+
   // As SUMMARY.
   localparam logic [7:0] SAFE_SUM_ADDR = 8'h36;
   localparam logic [31:0] SAFE_SUM_LSB = 32'd0;
   localparam logic [31:0] SAFE_SUM_W = 32'd8;
   localparam logic [7:0] SAFE_SUM_MASK = 8'hFF;
   localparam logic [7:0] SAFE_SUM_RESET = 8'd0;
+
+  // As PC_DATA.
+  localparam logic [7:0] S_PC_DATA_ADDR = 8'h37;
+  localparam logic [31:0] S_PC_DATA_LSB = 32'd0;
+  localparam logic [31:0] S_PC_DATA_W = 32'd8;
+  localparam logic [7:0] S_PC_DATA_MASK = 8'hFF;
+  localparam logic [7:0] S_PC_DATA_RESET = 8'd0;
 
   // Words missing one after another. Written: the number at which the link begins again, 5 bits,
   // 1Fh after a reset; 0 is as 1. SDK: read only.
@@ -471,12 +952,147 @@ package dsl_regs_pkg;
   localparam logic [7:0] CNT_MASK = 8'hFF;
   localparam logic [7:0] CNT_RESET = 8'd0;
 
+  // Kept, without effect.
+  localparam logic [7:0] MAXACC_ADDR = 8'h39;
+  localparam logic [31:0] MAXACC_LSB = 32'd0;
+  localparam logic [31:0] MAXACC_W = 32'd8;
+  localparam logic [7:0] MAXACC_MASK = 8'hFF;
+  localparam logic [7:0] MAXACC_RESET = 8'd0;
+
+  // An event and its bit in MASK_S are 1, now. It goes with them.
+  localparam logic [7:0] SINT_ADDR = 8'h3D;
+  localparam logic [31:0] SINT_LSB = 32'd7;
+  localparam logic [31:0] SINT_W = 32'd1;
+  localparam logic [7:0] SINT_MASK = 8'h80;
+  localparam logic [0:0] SINT_RESET = 1'd0;
+
+  // A bit of SUMMARY is 1.
+  localparam logic [7:0] SSUM_ADDR = 8'h3D;
+  localparam logic [31:0] SSUM_LSB = 32'd6;
+  localparam logic [31:0] SSUM_W = 32'd1;
+  localparam logic [7:0] SSUM_MASK = 8'h40;
+  localparam logic [0:0] SSUM_RESET = 1'd0;
+
+  // The code or the CRC of safe channel 1 was wrong.
+  localparam logic [7:0] S_SCE_ADDR = 8'h3D;
+  localparam logic [31:0] S_SCE_LSB = 32'd5;
+  localparam logic [31:0] S_SCE_W = 32'd1;
+  localparam logic [7:0] S_SCE_MASK = 8'h20;
+  localparam logic [0:0] S_SCE_RESET = 1'd0;
+
+  // The encoder had no safe position 1.
+  localparam logic [7:0] S_VPOS_ADDR = 8'h3D;
+  localparam logic [31:0] S_VPOS_LSB = 32'd4;
+  localparam logic [31:0] S_VPOS_W = 32'd1;
+  localparam logic [7:0] S_VPOS_MASK = 8'h10;
+  localparam logic [0:0] S_VPOS_RESET = 1'd0;
+
+  // QM was below 14.
+  localparam logic [7:0] S_QMLW_ADDR = 8'h3D;
+  localparam logic [31:0] S_QMLW_LSB = 32'd3;
+  localparam logic [31:0] S_QMLW_W = 32'd1;
+  localparam logic [7:0] S_QMLW_MASK = 8'h08;
+  localparam logic [0:0] S_QMLW_RESET = 1'd0;
+
+  // The link began again, or for the first time.
+  localparam logic [7:0] S_PRST_ADDR = 8'h3D;
+  localparam logic [31:0] S_PRST_LSB = 32'd2;
+  localparam logic [31:0] S_PRST_W = 32'd1;
+  localparam logic [7:0] S_PRST_MASK = 8'h04;
+  localparam logic [0:0] S_PRST_RESET = 1'd0;
+
+  // A reset of the messages has ended.
+  localparam logic [7:0] S_MIN_ADDR = 8'h3D;
+  localparam logic [31:0] S_MIN_LSB = 32'd1;
+  localparam logic [31:0] S_MIN_W = 32'd1;
+  localparam logic [7:0] S_MIN_MASK = 8'h02;
+  localparam logic [0:0] S_MIN_RESET = 1'd0;
+
+  // The channel is free for a short message of S_PC_DATA. Its start clears the bit.
+  localparam logic [7:0] S_FRES_ADDR = 8'h3D;
+  localparam logic [31:0] S_FRES_LSB = 32'd0;
+  localparam logic [31:0] S_FRES_W = 32'd1;
+  localparam logic [7:0] S_FRES_MASK = 8'h01;
+  localparam logic [0:0] S_FRES_RESET = 1'd0;
+
+  // 1 lets SSUM set SINT.
+  localparam logic [7:0] MSSUM_ADDR = 8'h3E;
+  localparam logic [31:0] MSSUM_LSB = 32'd6;
+  localparam logic [31:0] MSSUM_W = 32'd1;
+  localparam logic [7:0] MSSUM_MASK = 8'h40;
+  localparam logic [0:0] MSSUM_RESET = 1'd0;
+
+  // 1 lets S_SCE set SINT.
+  localparam logic [7:0] MSSCE_ADDR = 8'h3E;
+  localparam logic [31:0] MSSCE_LSB = 32'd5;
+  localparam logic [31:0] MSSCE_W = 32'd1;
+  localparam logic [7:0] MSSCE_MASK = 8'h20;
+  localparam logic [0:0] MSSCE_RESET = 1'd0;
+
+  // 1 lets S_VPOS set SINT.
+  localparam logic [7:0] MSVPOS_ADDR = 8'h3E;
+  localparam logic [31:0] MSVPOS_LSB = 32'd4;
+  localparam logic [31:0] MSVPOS_W = 32'd1;
+  localparam logic [7:0] MSVPOS_MASK = 8'h10;
+  localparam logic [0:0] MSVPOS_RESET = 1'd0;
+
+  // 1 lets S_QMLW set SINT.
+  localparam logic [7:0] MSQMLW_ADDR = 8'h3E;
+  localparam logic [31:0] MSQMLW_LSB = 32'd3;
+  localparam logic [31:0] MSQMLW_W = 32'd1;
+  localparam logic [7:0] MSQMLW_MASK = 8'h08;
+  localparam logic [0:0] MSQMLW_RESET = 1'd0;
+
+  // 1 lets S_PRST set SINT.
+  localparam logic [7:0] MSPRST_ADDR = 8'h3E;
+  localparam logic [31:0] MSPRST_LSB = 32'd2;
+  localparam logic [31:0] MSPRST_W = 32'd1;
+  localparam logic [7:0] MSPRST_MASK = 8'h04;
+  localparam logic [0:0] MSPRST_RESET = 1'd0;
+
+  // 1 lets S_MIN set SINT.
+  localparam logic [7:0] MSMIN_ADDR = 8'h3E;
+  localparam logic [31:0] MSMIN_LSB = 32'd1;
+  localparam logic [31:0] MSMIN_W = 32'd1;
+  localparam logic [7:0] MSMIN_MASK = 8'h02;
+  localparam logic [0:0] MSMIN_RESET = 1'd0;
+
+  // 1 lets S_FRES set SINT.
+  localparam logic [7:0] MSFRES_ADDR = 8'h3E;
+  localparam logic [31:0] MSFRES_LSB = 32'd0;
+  localparam logic [31:0] MSFRES_W = 32'd1;
+  localparam logic [7:0] MSFRES_MASK = 8'h01;
+  localparam logic [0:0] MSFRES_RESET = 1'd0;
+
+  // Each value but 3Fh starts a message: bit 7 is 1 for a read, bits 5 to 0 are the address in the
+  // encoder, 40h to 7Fh; bit 6 is not looked at, and tells a write to 7Fh from 3Fh. It clears FRES.
+  // The value stays while the message runs, in which writes are ignored; 3Fh: nothing runs.
+  localparam logic [7:0] SLAVE_REG_CTRL_ADDR = 8'h40;
+  localparam logic [31:0] SLAVE_REG_CTRL_LSB = 32'd0;
+  localparam logic [31:0] SLAVE_REG_CTRL_W = 32'd8;
+  localparam logic [7:0] SLAVE_REG_CTRL_MASK = 8'hFF;
+  localparam logic [7:0] SLAVE_REG_CTRL_RESET = 8'd63;
+
   // The number at which the link begins again; 0 is as 1.
   localparam logic [7:0] THRESH_ADDR = 8'h41;
   localparam logic [31:0] THRESH_LSB = 32'd0;
   localparam logic [31:0] THRESH_W = 32'd5;
   localparam logic [7:0] THRESH_MASK = 8'h1F;
   localparam logic [4:0] THRESH_RESET = 5'd31;
+
+  // FFh: there is no such limit, and writes are ignored.
+  localparam logic [7:0] MAXDEV_THRESH_H_ADDR = 8'h42;
+  localparam logic [31:0] MAXDEV_THRESH_H_LSB = 32'd0;
+  localparam logic [31:0] MAXDEV_THRESH_H_W = 32'd8;
+  localparam logic [7:0] MAXDEV_THRESH_H_MASK = 8'hFF;
+  localparam logic [7:0] MAXDEV_THRESH_H_RESET = 8'd255;
+
+  // FFh.
+  localparam logic [7:0] MAXDEV_THRESH_L_ADDR = 8'h43;
+  localparam logic [31:0] MAXDEV_THRESH_L_LSB = 32'd0;
+  localparam logic [31:0] MAXDEV_THRESH_L_W = 32'd8;
+  localparam logic [7:0] MAXDEV_THRESH_L_MASK = 8'hFF;
+  localparam logic [7:0] MAXDEV_THRESH_L_RESET = 8'd255;
 
   // It changes with each vertical frame.
   localparam logic [7:0] TOG2_ADDR = 8'h46;
@@ -554,6 +1170,224 @@ package dsl_regs_pkg;
   localparam logic [31:0] VPOSCRC2_L_W = 32'd8;
   localparam logic [7:0] VPOSCRC2_L_MASK = 8'hFF;
   localparam logic [7:0] VPOSCRC2_L_RESET = 8'd0;
+
+  // 0 from an edge of SAMPLE on, then what came last: 2 fast position, 1 safe position 1, 3 safe
+  // position 2. SDK: 3 safe position 1.
+  localparam logic [7:0] POSTX_ADDR = 8'h4E;
+  localparam logic [31:0] POSTX_LSB = 32'd0;
+  localparam logic [31:0] POSTX_W = 32'd2;
+  localparam logic [7:0] POSTX_MASK = 8'h03;
+  localparam logic [1:0] POSTX_RESET = 2'd0;
+
+  // As INT.
+  localparam logic [7:0] NOW_INT_ADDR = 8'h50;
+  localparam logic [31:0] NOW_INT_LSB = 32'd7;
+  localparam logic [31:0] NOW_INT_W = 32'd1;
+  localparam logic [7:0] NOW_INT_MASK = 8'h80;
+  localparam logic [0:0] NOW_INT_RESET = 1'd0;
+
+  // SUMMARY with MASK_SUM.
+  localparam logic [7:0] NOW_SUM_ADDR = 8'h50;
+  localparam logic [31:0] NOW_SUM_LSB = 32'd6;
+  localparam logic [31:0] NOW_SUM_W = 32'd1;
+  localparam logic [7:0] NOW_SUM_MASK = 8'h40;
+  localparam logic [0:0] NOW_SUM_RESET = 1'd0;
+
+  // Of the last vertical frame.
+  localparam logic [7:0] NOW_SCE_ADDR = 8'h50;
+  localparam logic [31:0] NOW_SCE_LSB = 32'd5;
+  localparam logic [31:0] NOW_SCE_W = 32'd1;
+  localparam logic [7:0] NOW_SCE_MASK = 8'h20;
+  localparam logic [0:0] NOW_SCE_RESET = 1'd0;
+
+  // 1.
+  localparam logic [7:0] NOW_ONE_ADDR = 8'h50;
+  localparam logic [31:0] NOW_ONE_LSB = 32'd4;
+  localparam logic [31:0] NOW_ONE_W = 32'd1;
+  localparam logic [7:0] NOW_ONE_MASK = 8'h10;
+  localparam logic [0:0] NOW_ONE_RESET = 1'd1;
+
+  // The position is not certain.
+  localparam logic [7:0] NOW_POS_ADDR = 8'h50;
+  localparam logic [31:0] NOW_POS_LSB = 32'd3;
+  localparam logic [31:0] NOW_POS_W = 32'd1;
+  localparam logic [7:0] NOW_POS_MASK = 8'h08;
+  localparam logic [0:0] NOW_POS_RESET = 1'd1;
+
+  // Of the last vertical frame.
+  localparam logic [7:0] NOW_VPOS_ADDR = 8'h50;
+  localparam logic [31:0] NOW_VPOS_LSB = 32'd2;
+  localparam logic [31:0] NOW_VPOS_W = 32'd1;
+  localparam logic [7:0] NOW_VPOS_MASK = 8'h04;
+  localparam logic [0:0] NOW_VPOS_RESET = 1'd0;
+
+  // There is no link.
+  localparam logic [7:0] NOW_PRST_ADDR = 8'h50;
+  localparam logic [31:0] NOW_PRST_LSB = 32'd0;
+  localparam logic [31:0] NOW_PRST_W = 32'd1;
+  localparam logic [7:0] NOW_PRST_MASK = 8'h01;
+  localparam logic [0:0] NOW_PRST_RESET = 1'd1;
+
+  // From the end of a reset of the messages to the next start of one.
+  localparam logic [7:0] NOW_MIN_ADDR = 8'h51;
+  localparam logic [31:0] NOW_MIN_LSB = 32'd5;
+  localparam logic [31:0] NOW_MIN_W = 32'd1;
+  localparam logic [7:0] NOW_MIN_MASK = 8'h20;
+  localparam logic [0:0] NOW_MIN_RESET = 1'd0;
+
+  // From such an end of a long message to the next start of one.
+  localparam logic [7:0] NOW_ANS_ADDR = 8'h51;
+  localparam logic [31:0] NOW_ANS_LSB = 32'd4;
+  localparam logic [31:0] NOW_ANS_W = 32'd1;
+  localparam logic [7:0] NOW_ANS_MASK = 8'h10;
+  localparam logic [0:0] NOW_ANS_RESET = 1'd0;
+
+  // QM is below 14, with a link.
+  localparam logic [7:0] NOW_QMLW_ADDR = 8'h51;
+  localparam logic [31:0] NOW_QMLW_LSB = 32'd2;
+  localparam logic [31:0] NOW_QMLW_W = 32'd1;
+  localparam logic [7:0] NOW_QMLW_MASK = 8'h04;
+  localparam logic [0:0] NOW_QMLW_RESET = 1'd0;
+
+  // No long message runs, and one could be sent.
+  localparam logic [7:0] NOW_FREL_ADDR = 8'h51;
+  localparam logic [31:0] NOW_FREL_LSB = 32'd1;
+  localparam logic [31:0] NOW_FREL_W = 32'd1;
+  localparam logic [7:0] NOW_FREL_MASK = 8'h02;
+  localparam logic [0:0] NOW_FREL_RESET = 1'd0;
+
+  // No short message of PC_DATA runs, and one could be sent.
+  localparam logic [7:0] NOW_FRES_ADDR = 8'h51;
+  localparam logic [31:0] NOW_FRES_LSB = 32'd0;
+  localparam logic [31:0] NOW_FRES_W = 32'd1;
+  localparam logic [7:0] NOW_FRES_MASK = 8'h01;
+  localparam logic [0:0] NOW_FRES_RESET = 1'd0;
+
+  // As SINT.
+  localparam logic [7:0] NOW_SINT_ADDR = 8'h52;
+  localparam logic [31:0] NOW_SINT_LSB = 32'd7;
+  localparam logic [31:0] NOW_SINT_W = 32'd1;
+  localparam logic [7:0] NOW_SINT_MASK = 8'h80;
+  localparam logic [0:0] NOW_SINT_RESET = 1'd0;
+
+  // A bit of SUMMARY is 1.
+  localparam logic [7:0] NOW_SSUM_ADDR = 8'h52;
+  localparam logic [31:0] NOW_SSUM_LSB = 32'd6;
+  localparam logic [31:0] NOW_SSUM_W = 32'd1;
+  localparam logic [7:0] NOW_SSUM_MASK = 8'h40;
+  localparam logic [0:0] NOW_SSUM_RESET = 1'd0;
+
+  // Of the last vertical frame, safe channel 1.
+  localparam logic [7:0] NOW1_SCE_ADDR = 8'h52;
+  localparam logic [31:0] NOW1_SCE_LSB = 32'd5;
+  localparam logic [31:0] NOW1_SCE_W = 32'd1;
+  localparam logic [7:0] NOW1_SCE_MASK = 8'h20;
+  localparam logic [0:0] NOW1_SCE_RESET = 1'd0;
+
+  // 1.
+  localparam logic [7:0] NOW1_ONE_ADDR = 8'h52;
+  localparam logic [31:0] NOW1_ONE_LSB = 32'd4;
+  localparam logic [31:0] NOW1_ONE_W = 32'd1;
+  localparam logic [7:0] NOW1_ONE_MASK = 8'h10;
+  localparam logic [0:0] NOW1_ONE_RESET = 1'd1;
+
+  // Of the last vertical frame.
+  localparam logic [7:0] NOW1_VPOS_ADDR = 8'h52;
+  localparam logic [31:0] NOW1_VPOS_LSB = 32'd2;
+  localparam logic [31:0] NOW1_VPOS_W = 32'd1;
+  localparam logic [7:0] NOW1_VPOS_MASK = 8'h04;
+  localparam logic [0:0] NOW1_VPOS_RESET = 1'd0;
+
+  // There is no link.
+  localparam logic [7:0] NOW1_PRST_ADDR = 8'h52;
+  localparam logic [31:0] NOW1_PRST_LSB = 32'd0;
+  localparam logic [31:0] NOW1_PRST_W = 32'd1;
+  localparam logic [7:0] NOW1_PRST_MASK = 8'h01;
+  localparam logic [0:0] NOW1_PRST_RESET = 1'd1;
+
+  // As NOW_MIN.
+  localparam logic [7:0] NOW1_MIN_ADDR = 8'h53;
+  localparam logic [31:0] NOW1_MIN_LSB = 32'd5;
+  localparam logic [31:0] NOW1_MIN_W = 32'd1;
+  localparam logic [7:0] NOW1_MIN_MASK = 8'h20;
+  localparam logic [0:0] NOW1_MIN_RESET = 1'd0;
+
+  // QM is below 14, with a link.
+  localparam logic [7:0] NOW1_QMLW_ADDR = 8'h53;
+  localparam logic [31:0] NOW1_QMLW_LSB = 32'd2;
+  localparam logic [31:0] NOW1_QMLW_W = 32'd1;
+  localparam logic [7:0] NOW1_QMLW_MASK = 8'h04;
+  localparam logic [0:0] NOW1_QMLW_RESET = 1'd0;
+
+  // No short message of S_PC_DATA runs, and one could be sent.
+  localparam logic [7:0] NOW1_FRES_ADDR = 8'h53;
+  localparam logic [31:0] NOW1_FRES_LSB = 32'd0;
+  localparam logic [31:0] NOW1_FRES_W = 32'd1;
+  localparam logic [7:0] NOW1_FRES_MASK = 8'h01;
+  localparam logic [0:0] NOW1_FRES_RESET = 1'd0;
+
+  // TEST2 or ERR2.
+  localparam logic [7:0] NOW2_SUM2_ADDR = 8'h54;
+  localparam logic [31:0] NOW2_SUM2_LSB = 32'd6;
+  localparam logic [31:0] NOW2_SUM2_W = 32'd1;
+  localparam logic [7:0] NOW2_SUM2_MASK = 8'h40;
+  localparam logic [0:0] NOW2_SUM2_RESET = 1'd0;
+
+  // Of the last vertical frame, safe channel 2.
+  localparam logic [7:0] NOW2_SCE2_ADDR = 8'h54;
+  localparam logic [31:0] NOW2_SCE2_LSB = 32'd5;
+  localparam logic [31:0] NOW2_SCE2_W = 32'd1;
+  localparam logic [7:0] NOW2_SCE2_MASK = 8'h20;
+  localparam logic [0:0] NOW2_SCE2_RESET = 1'd0;
+
+  // 1.
+  localparam logic [7:0] NOW2_ONE_ADDR = 8'h54;
+  localparam logic [31:0] NOW2_ONE_LSB = 32'd4;
+  localparam logic [31:0] NOW2_ONE_W = 32'd1;
+  localparam logic [7:0] NOW2_ONE_MASK = 8'h10;
+  localparam logic [0:0] NOW2_ONE_RESET = 1'd1;
+
+  // The encoder had no safe position 2.
+  localparam logic [7:0] NOW2_VPOS2_ADDR = 8'h54;
+  localparam logic [31:0] NOW2_VPOS2_LSB = 32'd2;
+  localparam logic [31:0] NOW2_VPOS2_W = 32'd1;
+  localparam logic [7:0] NOW2_VPOS2_MASK = 8'h04;
+  localparam logic [0:0] NOW2_VPOS2_RESET = 1'd0;
+
+  // There is no link.
+  localparam logic [7:0] NOW2_PRST_ADDR = 8'h54;
+  localparam logic [31:0] NOW2_PRST_LSB = 32'd0;
+  localparam logic [31:0] NOW2_PRST_W = 32'd1;
+  localparam logic [7:0] NOW2_PRST_MASK = 8'h01;
+  localparam logic [0:0] NOW2_PRST_RESET = 1'd1;
+
+  // Of the last good STATUS2.
+  localparam logic [7:0] NOW2_TOG2_ADDR = 8'h55;
+  localparam logic [31:0] NOW2_TOG2_LSB = 32'd7;
+  localparam logic [31:0] NOW2_TOG2_W = 32'd1;
+  localparam logic [7:0] NOW2_TOG2_MASK = 8'h80;
+  localparam logic [0:0] NOW2_TOG2_RESET = 1'd0;
+
+  // Of the last good STATUS2.
+  localparam logic [7:0] NOW2_TEST2_ADDR = 8'h55;
+  localparam logic [31:0] NOW2_TEST2_LSB = 32'd6;
+  localparam logic [31:0] NOW2_TEST2_W = 32'd1;
+  localparam logic [7:0] NOW2_TEST2_MASK = 8'h40;
+  localparam logic [0:0] NOW2_TEST2_RESET = 1'd0;
+
+  // Of the last good STATUS2.
+  localparam logic [7:0] NOW2_ERR2_ADDR = 8'h55;
+  localparam logic [31:0] NOW2_ERR2_LSB = 32'd5;
+  localparam logic [31:0] NOW2_ERR2_W = 32'd1;
+  localparam logic [7:0] NOW2_ERR2_MASK = 8'h20;
+  localparam logic [0:0] NOW2_ERR2_RESET = 1'd0;
+
+  // QM is below 14, with a link.
+  localparam logic [7:0] NOW2_QMLW_ADDR = 8'h55;
+  localparam logic [31:0] NOW2_QMLW_LSB = 32'd2;
+  localparam logic [31:0] NOW2_QMLW_W = 32'd1;
+  localparam logic [7:0] NOW2_QMLW_MASK = 8'h04;
+  localparam logic [0:0] NOW2_QMLW_RESET = 1'd0;
 
 endpackage
 // verilator lint_on UNUSEDPARAM

@@ -33,6 +33,8 @@ inline constexpr std::uint16_t kAddrSafe2Age = 0x13C;  // Age of safe position 2
 inline constexpr std::uint16_t kAddrRestarts = 0x140;  // Restarts
 inline constexpr std::uint16_t kAddrSamplePlace = 0x144;  // Place of the sample
 inline constexpr std::uint16_t kAddrMessages = 0x148;  // Messages
+inline constexpr std::uint16_t kAddrSafeCheck = 0x14C;  // Comparison of the two safe positions
+inline constexpr std::uint16_t kAddrSafeStatus = 0x150;  // What was wrong in the last vertical frame
 inline constexpr std::uint16_t kAddrId = 0x180;  // Identity
 inline constexpr std::uint16_t kAddrVersion = 0x184;  // Version of the project
 inline constexpr std::uint16_t kAddrFeatures = 0x188;  // Features
@@ -101,20 +103,26 @@ inline constexpr std::uint32_t kConstSamplePlace = 0x00000000;
 inline constexpr std::uint32_t kResetMessages = 0x00000000;
 inline constexpr std::uint32_t kWmaskMessages = 0x00000000;
 inline constexpr std::uint32_t kConstMessages = 0x00000000;
+inline constexpr std::uint32_t kResetSafeCheck = 0x00000000;
+inline constexpr std::uint32_t kWmaskSafeCheck = 0x0000FFFF;
+inline constexpr std::uint32_t kConstSafeCheck = 0x00000000;
+inline constexpr std::uint32_t kResetSafeStatus = 0x00000000;
+inline constexpr std::uint32_t kWmaskSafeStatus = 0x00000000;
+inline constexpr std::uint32_t kConstSafeStatus = 0x00000000;
 inline constexpr std::uint32_t kResetId = 0x454E4305;
 inline constexpr std::uint32_t kWmaskId = 0x00000000;
 inline constexpr std::uint32_t kConstId = 0xFFFFFFFF;
 inline constexpr std::uint32_t kResetVersion = 0x00020000;
 inline constexpr std::uint32_t kWmaskVersion = 0x00000000;
 inline constexpr std::uint32_t kConstVersion = 0xFFFFFFFF;
-inline constexpr std::uint32_t kResetFeatures = 0x00000126;
+inline constexpr std::uint32_t kResetFeatures = 0x00000127;
 inline constexpr std::uint32_t kWmaskFeatures = 0x00000000;
 inline constexpr std::uint32_t kConstFeatures = 0x00000000;
 inline constexpr std::uint32_t kResetIrqStatus = 0x00000000;
-inline constexpr std::uint32_t kWmaskIrqStatus = 0x00000013;
+inline constexpr std::uint32_t kWmaskIrqStatus = 0x0000007F;
 inline constexpr std::uint32_t kConstIrqStatus = 0x00000000;
 inline constexpr std::uint32_t kResetIrqEnable = 0x00000000;
-inline constexpr std::uint32_t kWmaskIrqEnable = 0x00000013;
+inline constexpr std::uint32_t kWmaskIrqEnable = 0x0000007F;
 inline constexpr std::uint32_t kConstIrqEnable = 0x00000000;
 inline constexpr std::uint32_t kResetTimeLow = 0x00000000;
 inline constexpr std::uint32_t kWmaskTimeLow = 0x00000000;
@@ -266,10 +274,47 @@ using CODE_ILLEGAL = Field<0x140, 16, 16, Access::kReadOnly, 0>;
 using NUM_RESETS = Field<0x140, 0, 16, Access::kReadOnly, 0>;
 // Number of the first sample of an answer in its window with five bits behind the point.
 using SAMPLE_PLACE = Field<0x144, 0, 15, Access::kReadOnly, 0>;
-// 0: this master sends no messages.
+// Short messages that were sent again. It wraps.
 using RETRIES = Field<0x148, 16, 16, Access::kReadOnly, 0>;
-// 0.
+// Whole answers that nobody had asked for: another address, direction or length, or none was open.
+// It wraps.
 using FOREIGN_ANSWERS = Field<0x148, 0, 16, Access::kReadOnly, 0>;
+// How far they may differ, in steps of safe position 2.
+using TOLERANCE = Field<0x14C, 8, 8, Access::kReadWrite, 0>;
+// Bits of safe position 2, the upper ones of the position. 0: they are not compared. More than the
+// position has are as many as it has.
+using SAFE2_BITS = Field<0x14C, 0, 8, Access::kReadWrite, 0>;
+// VSYNC of the vertical frame before came with the first frame of this one.
+using VSYNC_LATE = Field<0x150, 14, 1, Access::kReadOnly, 0>;
+// The good safe position 1 should have been the fast one, and was not.
+using STALE = Field<0x150, 13, 1, Access::kReadOnly, 0>;
+// VSYNC of the vertical frame before did not come.
+using VSYNC_MISSING = Field<0x150, 12, 1, Access::kReadOnly, 0>;
+// VSYNC came in another frame.
+using VSYNC_EARLY = Field<0x150, 11, 1, Access::kReadOnly, 0>;
+// A word of safe channel 2 was wrong.
+using CODE2 = Field<0x150, 10, 1, Access::kReadOnly, 0>;
+// A word of safe channel 1 was wrong.
+using CODE1 = Field<0x150, 9, 1, Access::kReadOnly, 0>;
+// The CRC of safe channel 2 was wrong, its words were not.
+using CRC2 = Field<0x150, 8, 1, Access::kReadOnly, 0>;
+// The CRC of safe channel 1 was wrong, its words were not.
+using CRC1 = Field<0x150, 7, 1, Access::kReadOnly, 0>;
+// The encoder has no safe position 2.
+using MARKED2 = Field<0x150, 6, 1, Access::kReadOnly, 0>;
+// The encoder has no safe position 1.
+using MARKED1 = Field<0x150, 5, 1, Access::kReadOnly, 0>;
+// The lowest bits of STATUS2 are not 11100.
+using FIX2_WRONG = Field<0x150, 4, 1, Access::kReadOnly, 0>;
+// ERR2.
+using ERR2_SET = Field<0x150, 3, 1, Access::kReadOnly, 0>;
+// TEST2.
+using TEST2_SET = Field<0x150, 2, 1, Access::kReadOnly, 0>;
+// TOG2 has not changed with each vertical frame since the last good one.
+using TOG2_STUCK = Field<0x150, 1, 1, Access::kReadOnly, 0>;
+// Both safe positions were good, and differ by more than the tolerance. It is right from the record
+// of the next frame on.
+using MISMATCH = Field<0x150, 0, 1, Access::kReadOnly, 0>;
 // Lines.
 using CHANNELS = Field<0x188, 8, 4, Access::kReadOnly, 1>;
 // 0 published, 1 first zero, 2 tracking.
@@ -281,15 +326,31 @@ using STRICT_CODE = Field<0x188, 2, 1, Access::kReadOnly, 1>;
 // A missing word is recovered by one safe position.
 using RECOVERY = Field<0x188, 1, 1, Access::kReadOnly, 1>;
 // Messages, events of the encoder.
-using MESSAGES_EVENTS = Field<0x188, 0, 1, Access::kReadOnly, 0>;
+using MESSAGES_EVENTS = Field<0x188, 0, 1, Access::kReadOnly, 1>;
+// A good safe position 2 has come.
+using SAFE2_READY = Field<0x18C, 6, 1, Access::kWriteOneClears, 0>;
+// A good safe position 1 has come.
+using SAFE1_READY = Field<0x18C, 5, 1, Access::kWriteOneClears, 0>;
 // A frame ended while FRAME_ENDED was still set.
 using FRAME_LOST = Field<0x18C, 4, 1, Access::kWriteOneClears, 0>;
+// SINT rose.
+using SAFE_EVENT = Field<0x18C, 3, 1, Access::kWriteOneClears, 0>;
+// INT rose.
+using EVENT = Field<0x18C, 2, 1, Access::kWriteOneClears, 0>;
 // POS rose, or LINK fell.
 using LINK_LOST = Field<0x18C, 1, 1, Access::kWriteOneClears, 0>;
 // A running frame ended.
 using FRAME_ENDED = Field<0x18C, 0, 1, Access::kWriteOneClears, 0>;
+// Enables SAFE2_READY.
+using SAFE2_READY_ENABLE = Field<0x190, 6, 1, Access::kReadWrite, 0>;
+// Enables SAFE1_READY.
+using SAFE1_READY_ENABLE = Field<0x190, 5, 1, Access::kReadWrite, 0>;
 // Enables FRAME_LOST.
 using FRAME_LOST_ENABLE = Field<0x190, 4, 1, Access::kReadWrite, 0>;
+// Enables SAFE_EVENT.
+using SAFE_EVENT_ENABLE = Field<0x190, 3, 1, Access::kReadWrite, 0>;
+// Enables EVENT.
+using EVENT_ENABLE = Field<0x190, 2, 1, Access::kReadWrite, 0>;
 // Enables LINK_LOST.
 using LINK_LOST_ENABLE = Field<0x190, 1, 1, Access::kReadWrite, 0>;
 // Enables FRAME_ENDED.

@@ -38,6 +38,8 @@ package dsl_page_regs_pkg;
   localparam logic [11:0] ADDR_RESTARTS = 12'h140;
   localparam logic [11:0] ADDR_SAMPLE_PLACE = 12'h144;
   localparam logic [11:0] ADDR_MESSAGES = 12'h148;
+  localparam logic [11:0] ADDR_SAFE_CHECK = 12'h14C;
+  localparam logic [11:0] ADDR_SAFE_STATUS = 12'h150;
   localparam logic [11:0] ADDR_ID = 12'h180;
   localparam logic [11:0] ADDR_VERSION = 12'h184;
   localparam logic [11:0] ADDR_FEATURES = 12'h188;
@@ -106,20 +108,26 @@ package dsl_page_regs_pkg;
   localparam logic [31:0] RESET_MESSAGES = 32'h00000000;
   localparam logic [31:0] WMASK_MESSAGES = 32'h00000000;
   localparam logic [31:0] CONST_MESSAGES = 32'h00000000;
+  localparam logic [31:0] RESET_SAFE_CHECK = 32'h00000000;
+  localparam logic [31:0] WMASK_SAFE_CHECK = 32'h0000FFFF;
+  localparam logic [31:0] CONST_SAFE_CHECK = 32'h00000000;
+  localparam logic [31:0] RESET_SAFE_STATUS = 32'h00000000;
+  localparam logic [31:0] WMASK_SAFE_STATUS = 32'h00000000;
+  localparam logic [31:0] CONST_SAFE_STATUS = 32'h00000000;
   localparam logic [31:0] RESET_ID = 32'h454E4305;
   localparam logic [31:0] WMASK_ID = 32'h00000000;
   localparam logic [31:0] CONST_ID = 32'hFFFFFFFF;
   localparam logic [31:0] RESET_VERSION = 32'h00020000;
   localparam logic [31:0] WMASK_VERSION = 32'h00000000;
   localparam logic [31:0] CONST_VERSION = 32'hFFFFFFFF;
-  localparam logic [31:0] RESET_FEATURES = 32'h00000126;
+  localparam logic [31:0] RESET_FEATURES = 32'h00000127;
   localparam logic [31:0] WMASK_FEATURES = 32'h00000000;
   localparam logic [31:0] CONST_FEATURES = 32'h00000000;
   localparam logic [31:0] RESET_IRQ_STATUS = 32'h00000000;
-  localparam logic [31:0] WMASK_IRQ_STATUS = 32'h00000013;
+  localparam logic [31:0] WMASK_IRQ_STATUS = 32'h0000007F;
   localparam logic [31:0] CONST_IRQ_STATUS = 32'h00000000;
   localparam logic [31:0] RESET_IRQ_ENABLE = 32'h00000000;
-  localparam logic [31:0] WMASK_IRQ_ENABLE = 32'h00000013;
+  localparam logic [31:0] WMASK_IRQ_ENABLE = 32'h0000007F;
   localparam logic [31:0] CONST_IRQ_ENABLE = 32'h00000000;
   localparam logic [31:0] RESET_TIME_LOW = 32'h00000000;
   localparam logic [31:0] WMASK_TIME_LOW = 32'h00000000;
@@ -433,19 +441,141 @@ package dsl_page_regs_pkg;
   localparam logic [31:0] SAMPLE_PLACE_MASK = 32'h00007FFF;
   localparam logic [14:0] SAMPLE_PLACE_RESET = 15'd0;
 
-  // 0: this master sends no messages.
+  // Short messages that were sent again. It wraps.
   localparam logic [11:0] RETRIES_ADDR = 12'h148;
   localparam logic [31:0] RETRIES_LSB = 32'd16;
   localparam logic [31:0] RETRIES_W = 32'd16;
   localparam logic [31:0] RETRIES_MASK = 32'hFFFF0000;
   localparam logic [15:0] RETRIES_RESET = 16'd0;
 
-  // 0.
+  // Whole answers that nobody had asked for: another address, direction or length, or none was
+  // open. It wraps.
   localparam logic [11:0] FOREIGN_ANSWERS_ADDR = 12'h148;
   localparam logic [31:0] FOREIGN_ANSWERS_LSB = 32'd0;
   localparam logic [31:0] FOREIGN_ANSWERS_W = 32'd16;
   localparam logic [31:0] FOREIGN_ANSWERS_MASK = 32'h0000FFFF;
   localparam logic [15:0] FOREIGN_ANSWERS_RESET = 16'd0;
+
+  // How far they may differ, in steps of safe position 2.
+  localparam logic [11:0] TOLERANCE_ADDR = 12'h14C;
+  localparam logic [31:0] TOLERANCE_LSB = 32'd8;
+  localparam logic [31:0] TOLERANCE_W = 32'd8;
+  localparam logic [31:0] TOLERANCE_MASK = 32'h0000FF00;
+  localparam logic [7:0] TOLERANCE_RESET = 8'd0;
+
+  // Bits of safe position 2, the upper ones of the position. 0: they are not compared. More than
+  // the position has are as many as it has.
+  localparam logic [11:0] SAFE2_BITS_ADDR = 12'h14C;
+  localparam logic [31:0] SAFE2_BITS_LSB = 32'd0;
+  localparam logic [31:0] SAFE2_BITS_W = 32'd8;
+  localparam logic [31:0] SAFE2_BITS_MASK = 32'h000000FF;
+  localparam logic [7:0] SAFE2_BITS_RESET = 8'd0;
+
+  // VSYNC of the vertical frame before came with the first frame of this one.
+  localparam logic [11:0] VSYNC_LATE_ADDR = 12'h150;
+  localparam logic [31:0] VSYNC_LATE_LSB = 32'd14;
+  localparam logic [31:0] VSYNC_LATE_W = 32'd1;
+  localparam logic [31:0] VSYNC_LATE_MASK = 32'h00004000;
+  localparam logic [0:0] VSYNC_LATE_RESET = 1'd0;
+
+  // The good safe position 1 should have been the fast one, and was not.
+  localparam logic [11:0] STALE_ADDR = 12'h150;
+  localparam logic [31:0] STALE_LSB = 32'd13;
+  localparam logic [31:0] STALE_W = 32'd1;
+  localparam logic [31:0] STALE_MASK = 32'h00002000;
+  localparam logic [0:0] STALE_RESET = 1'd0;
+
+  // VSYNC of the vertical frame before did not come.
+  localparam logic [11:0] VSYNC_MISSING_ADDR = 12'h150;
+  localparam logic [31:0] VSYNC_MISSING_LSB = 32'd12;
+  localparam logic [31:0] VSYNC_MISSING_W = 32'd1;
+  localparam logic [31:0] VSYNC_MISSING_MASK = 32'h00001000;
+  localparam logic [0:0] VSYNC_MISSING_RESET = 1'd0;
+
+  // VSYNC came in another frame.
+  localparam logic [11:0] VSYNC_EARLY_ADDR = 12'h150;
+  localparam logic [31:0] VSYNC_EARLY_LSB = 32'd11;
+  localparam logic [31:0] VSYNC_EARLY_W = 32'd1;
+  localparam logic [31:0] VSYNC_EARLY_MASK = 32'h00000800;
+  localparam logic [0:0] VSYNC_EARLY_RESET = 1'd0;
+
+  // A word of safe channel 2 was wrong.
+  localparam logic [11:0] CODE2_ADDR = 12'h150;
+  localparam logic [31:0] CODE2_LSB = 32'd10;
+  localparam logic [31:0] CODE2_W = 32'd1;
+  localparam logic [31:0] CODE2_MASK = 32'h00000400;
+  localparam logic [0:0] CODE2_RESET = 1'd0;
+
+  // A word of safe channel 1 was wrong.
+  localparam logic [11:0] CODE1_ADDR = 12'h150;
+  localparam logic [31:0] CODE1_LSB = 32'd9;
+  localparam logic [31:0] CODE1_W = 32'd1;
+  localparam logic [31:0] CODE1_MASK = 32'h00000200;
+  localparam logic [0:0] CODE1_RESET = 1'd0;
+
+  // The CRC of safe channel 2 was wrong, its words were not.
+  localparam logic [11:0] CRC2_ADDR = 12'h150;
+  localparam logic [31:0] CRC2_LSB = 32'd8;
+  localparam logic [31:0] CRC2_W = 32'd1;
+  localparam logic [31:0] CRC2_MASK = 32'h00000100;
+  localparam logic [0:0] CRC2_RESET = 1'd0;
+
+  // The CRC of safe channel 1 was wrong, its words were not.
+  localparam logic [11:0] CRC1_ADDR = 12'h150;
+  localparam logic [31:0] CRC1_LSB = 32'd7;
+  localparam logic [31:0] CRC1_W = 32'd1;
+  localparam logic [31:0] CRC1_MASK = 32'h00000080;
+  localparam logic [0:0] CRC1_RESET = 1'd0;
+
+  // The encoder has no safe position 2.
+  localparam logic [11:0] MARKED2_ADDR = 12'h150;
+  localparam logic [31:0] MARKED2_LSB = 32'd6;
+  localparam logic [31:0] MARKED2_W = 32'd1;
+  localparam logic [31:0] MARKED2_MASK = 32'h00000040;
+  localparam logic [0:0] MARKED2_RESET = 1'd0;
+
+  // The encoder has no safe position 1.
+  localparam logic [11:0] MARKED1_ADDR = 12'h150;
+  localparam logic [31:0] MARKED1_LSB = 32'd5;
+  localparam logic [31:0] MARKED1_W = 32'd1;
+  localparam logic [31:0] MARKED1_MASK = 32'h00000020;
+  localparam logic [0:0] MARKED1_RESET = 1'd0;
+
+  // The lowest bits of STATUS2 are not 11100.
+  localparam logic [11:0] FIX2_WRONG_ADDR = 12'h150;
+  localparam logic [31:0] FIX2_WRONG_LSB = 32'd4;
+  localparam logic [31:0] FIX2_WRONG_W = 32'd1;
+  localparam logic [31:0] FIX2_WRONG_MASK = 32'h00000010;
+  localparam logic [0:0] FIX2_WRONG_RESET = 1'd0;
+
+  // ERR2.
+  localparam logic [11:0] ERR2_SET_ADDR = 12'h150;
+  localparam logic [31:0] ERR2_SET_LSB = 32'd3;
+  localparam logic [31:0] ERR2_SET_W = 32'd1;
+  localparam logic [31:0] ERR2_SET_MASK = 32'h00000008;
+  localparam logic [0:0] ERR2_SET_RESET = 1'd0;
+
+  // TEST2.
+  localparam logic [11:0] TEST2_SET_ADDR = 12'h150;
+  localparam logic [31:0] TEST2_SET_LSB = 32'd2;
+  localparam logic [31:0] TEST2_SET_W = 32'd1;
+  localparam logic [31:0] TEST2_SET_MASK = 32'h00000004;
+  localparam logic [0:0] TEST2_SET_RESET = 1'd0;
+
+  // TOG2 has not changed with each vertical frame since the last good one.
+  localparam logic [11:0] TOG2_STUCK_ADDR = 12'h150;
+  localparam logic [31:0] TOG2_STUCK_LSB = 32'd1;
+  localparam logic [31:0] TOG2_STUCK_W = 32'd1;
+  localparam logic [31:0] TOG2_STUCK_MASK = 32'h00000002;
+  localparam logic [0:0] TOG2_STUCK_RESET = 1'd0;
+
+  // Both safe positions were good, and differ by more than the tolerance. It is right from the
+  // record of the next frame on.
+  localparam logic [11:0] MISMATCH_ADDR = 12'h150;
+  localparam logic [31:0] MISMATCH_LSB = 32'd0;
+  localparam logic [31:0] MISMATCH_W = 32'd1;
+  localparam logic [31:0] MISMATCH_MASK = 32'h00000001;
+  localparam logic [0:0] MISMATCH_RESET = 1'd0;
 
   // Lines.
   localparam logic [11:0] CHANNELS_ADDR = 12'h188;
@@ -487,7 +617,21 @@ package dsl_page_regs_pkg;
   localparam logic [31:0] MESSAGES_EVENTS_LSB = 32'd0;
   localparam logic [31:0] MESSAGES_EVENTS_W = 32'd1;
   localparam logic [31:0] MESSAGES_EVENTS_MASK = 32'h00000001;
-  localparam logic [0:0] MESSAGES_EVENTS_RESET = 1'd0;
+  localparam logic [0:0] MESSAGES_EVENTS_RESET = 1'd1;
+
+  // A good safe position 2 has come.
+  localparam logic [11:0] SAFE2_READY_ADDR = 12'h18C;
+  localparam logic [31:0] SAFE2_READY_LSB = 32'd6;
+  localparam logic [31:0] SAFE2_READY_W = 32'd1;
+  localparam logic [31:0] SAFE2_READY_MASK = 32'h00000040;
+  localparam logic [0:0] SAFE2_READY_RESET = 1'd0;
+
+  // A good safe position 1 has come.
+  localparam logic [11:0] SAFE1_READY_ADDR = 12'h18C;
+  localparam logic [31:0] SAFE1_READY_LSB = 32'd5;
+  localparam logic [31:0] SAFE1_READY_W = 32'd1;
+  localparam logic [31:0] SAFE1_READY_MASK = 32'h00000020;
+  localparam logic [0:0] SAFE1_READY_RESET = 1'd0;
 
   // A frame ended while FRAME_ENDED was still set.
   localparam logic [11:0] FRAME_LOST_ADDR = 12'h18C;
@@ -495,6 +639,20 @@ package dsl_page_regs_pkg;
   localparam logic [31:0] FRAME_LOST_W = 32'd1;
   localparam logic [31:0] FRAME_LOST_MASK = 32'h00000010;
   localparam logic [0:0] FRAME_LOST_RESET = 1'd0;
+
+  // SINT rose.
+  localparam logic [11:0] SAFE_EVENT_ADDR = 12'h18C;
+  localparam logic [31:0] SAFE_EVENT_LSB = 32'd3;
+  localparam logic [31:0] SAFE_EVENT_W = 32'd1;
+  localparam logic [31:0] SAFE_EVENT_MASK = 32'h00000008;
+  localparam logic [0:0] SAFE_EVENT_RESET = 1'd0;
+
+  // INT rose.
+  localparam logic [11:0] EVENT_ADDR = 12'h18C;
+  localparam logic [31:0] EVENT_LSB = 32'd2;
+  localparam logic [31:0] EVENT_W = 32'd1;
+  localparam logic [31:0] EVENT_MASK = 32'h00000004;
+  localparam logic [0:0] EVENT_RESET = 1'd0;
 
   // POS rose, or LINK fell.
   localparam logic [11:0] LINK_LOST_ADDR = 12'h18C;
@@ -510,12 +668,40 @@ package dsl_page_regs_pkg;
   localparam logic [31:0] FRAME_ENDED_MASK = 32'h00000001;
   localparam logic [0:0] FRAME_ENDED_RESET = 1'd0;
 
+  // Enables SAFE2_READY.
+  localparam logic [11:0] SAFE2_READY_ENABLE_ADDR = 12'h190;
+  localparam logic [31:0] SAFE2_READY_ENABLE_LSB = 32'd6;
+  localparam logic [31:0] SAFE2_READY_ENABLE_W = 32'd1;
+  localparam logic [31:0] SAFE2_READY_ENABLE_MASK = 32'h00000040;
+  localparam logic [0:0] SAFE2_READY_ENABLE_RESET = 1'd0;
+
+  // Enables SAFE1_READY.
+  localparam logic [11:0] SAFE1_READY_ENABLE_ADDR = 12'h190;
+  localparam logic [31:0] SAFE1_READY_ENABLE_LSB = 32'd5;
+  localparam logic [31:0] SAFE1_READY_ENABLE_W = 32'd1;
+  localparam logic [31:0] SAFE1_READY_ENABLE_MASK = 32'h00000020;
+  localparam logic [0:0] SAFE1_READY_ENABLE_RESET = 1'd0;
+
   // Enables FRAME_LOST.
   localparam logic [11:0] FRAME_LOST_ENABLE_ADDR = 12'h190;
   localparam logic [31:0] FRAME_LOST_ENABLE_LSB = 32'd4;
   localparam logic [31:0] FRAME_LOST_ENABLE_W = 32'd1;
   localparam logic [31:0] FRAME_LOST_ENABLE_MASK = 32'h00000010;
   localparam logic [0:0] FRAME_LOST_ENABLE_RESET = 1'd0;
+
+  // Enables SAFE_EVENT.
+  localparam logic [11:0] SAFE_EVENT_ENABLE_ADDR = 12'h190;
+  localparam logic [31:0] SAFE_EVENT_ENABLE_LSB = 32'd3;
+  localparam logic [31:0] SAFE_EVENT_ENABLE_W = 32'd1;
+  localparam logic [31:0] SAFE_EVENT_ENABLE_MASK = 32'h00000008;
+  localparam logic [0:0] SAFE_EVENT_ENABLE_RESET = 1'd0;
+
+  // Enables EVENT.
+  localparam logic [11:0] EVENT_ENABLE_ADDR = 12'h190;
+  localparam logic [31:0] EVENT_ENABLE_LSB = 32'd2;
+  localparam logic [31:0] EVENT_ENABLE_W = 32'd1;
+  localparam logic [31:0] EVENT_ENABLE_MASK = 32'h00000004;
+  localparam logic [0:0] EVENT_ENABLE_RESET = 1'd0;
 
   // Enables LINK_LOST.
   localparam logic [11:0] LINK_LOST_ENABLE_ADDR = 12'h190;

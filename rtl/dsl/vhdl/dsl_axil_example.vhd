@@ -35,6 +35,7 @@ entity dsl_axil_example is
     link_o           : out std_logic;
     sample_edge_o    : out std_logic;
     position_ready_o : out std_logic;
+    interrupts_o     : out std_logic_vector(4 downto 0);
     dsl_out_o        : out std_logic;
     dsl_en_o         : out std_logic;
     dsl_in_i         : in  std_logic
@@ -70,6 +71,7 @@ begin
       link_o           => link_o,
       sample_edge_o    => sample_edge_o,
       position_ready_o => position_ready_o,
+      interrupts_o     => interrupts_o,
       dsl_out_o        => dsl_out_o,
       dsl_en_o         => dsl_en_o,
       dsl_in_i         => dsl_in_i

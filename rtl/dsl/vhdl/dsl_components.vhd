@@ -37,6 +37,7 @@ package dsl_components is
       link_o           : out std_logic;
       sample_edge_o    : out std_logic;
       position_ready_o : out std_logic;
+      interrupts_o     : out std_logic_vector(4 downto 0);
       dsl_out_o        : out std_logic;
       dsl_en_o         : out std_logic;
       dsl_in_i         : in  std_logic

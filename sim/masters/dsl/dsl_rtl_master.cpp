@@ -21,7 +21,8 @@ constexpr HostInterface kDslInterfaces[] = {{"axi", false, "an AXI access is nev
 constexpr dsl_model::LinkRules kPublished{.sample = dsl_model::SampleRule::kPublished,
                                           .quality = dsl_model::QualityRules::kFirmware,
                                           .recover = false,
-                                          .stale_limit = 0};
+                                          .stale_limit = 0,
+                                          .check_answers = false};
 
 void read_dsl_quirks(TomlReader& reader, ChipConfig& chip) {
   if (reader.boolean("SDK_MAP").value_or(false)) {

@@ -28,6 +28,7 @@ LinkRules rules_of(const ChipConfig& chip) {
   rules.vsync_limit = get(quirks, kQuirkVsync);
   rules.stale_limit = get(quirks, kQuirkStale);
   rules.strict_id = get(quirks, kQuirkId) != 0;
+  rules.check_answers = get(quirks, kQuirkAnswers) != 0;
   rules.sdk_map = (quirks & kSdkMap) != 0;
   return rules;
 }
@@ -49,6 +50,7 @@ void read_rules(TomlReader& reader, ChipConfig& chip) {
   flag("STRICT_CODE", kQuirkCheck);
   flag("STRICT_ID", kQuirkId);
   flag("RSSI_TABLE", kQuirkTable);
+  flag("CHECK_ANSWERS", kQuirkAnswers);
   number("SAMPLE", kQuirkSample, 2);
   if (const auto rules = reader.choice("RULES", {"document", "sick", "firmware"})) {
     put(chip.quirks, kQuirkRules, static_cast<unsigned>(*rules));

@@ -39,6 +39,7 @@ inline constexpr QuirkField kQuirkSample{22, 2};
 inline constexpr QuirkField kQuirkId{24, 1};
 inline constexpr QuirkField kQuirkCheck{25, 1};
 inline constexpr QuirkField kQuirkRecover{26, 1};
+inline constexpr QuirkField kQuirkAnswers{28, 1};
 static_assert(kSdkMap == 2U << kQuirkRecover.lsb);
 
 constexpr void put(unsigned& quirks, QuirkField field, unsigned value) {
@@ -57,6 +58,7 @@ constexpr unsigned packed(const LinkRules& rules) {
   put(quirks, kQuirkVsync, rules.vsync_limit);
   put(quirks, kQuirkStale, rules.stale_limit);
   put(quirks, kQuirkId, rules.strict_id ? 1 : 0);
+  put(quirks, kQuirkAnswers, rules.check_answers ? 1 : 0);
   return quirks;
 }
 

@@ -37,7 +37,7 @@ TEST(DslCodeRxBlock, EachWord_IsThatOfTheModel) {
         m.strict_i = check == CodeCheck::kStrict;
         m.raw_i = channel == Channel::kAcceleration;
         m.second_i = channel == Channel::kSecond;
-        m.eval();
+        block.clock();
         const Word expected = decode(line, check, channel);
         const Word seen = word_of(m.word_o);
         ASSERT_EQ(seen.byte, expected.byte);

@@ -18,10 +18,11 @@ TEST(DslCodeTxBlock, EachByteAtEachDisparity_IsThatOfTheModel) {
   mb4test::Block<Vdsl_code_tx> block;
   auto& m = block.model;
   for (unsigned byte = 0; byte < 256; ++byte) {
+    m.data_i = static_cast<std::uint8_t>(byte);
+    block.clock();
     for (int start = -126; start < 126; ++start) {
       int disparity = start;
       const unsigned word = encode_parameter(byte, disparity);
-      m.data_i = static_cast<std::uint8_t>(byte);
       m.disparity_i = static_cast<std::uint8_t>(start);
       m.eval();
       ASSERT_EQ(m.word_o, word) << byte << " at " << start;
@@ -41,8 +42,9 @@ TEST(DslCodeTxBlock, GoldenWords_AreThePublishedOnes) {
   mb4test::Block<Vdsl_code_tx> block;
   auto& m = block.model;
   for (const auto& [byte, word] : kWords) {
+    m.data_i = static_cast<std::uint8_t>(byte);
+    block.clock();
     for (const unsigned disparity : {0U, 1U}) {
-      m.data_i = static_cast<std::uint8_t>(byte);
       m.disparity_i = static_cast<std::uint8_t>(disparity);
       m.eval();
       EXPECT_EQ(m.word_o, word) << byte;

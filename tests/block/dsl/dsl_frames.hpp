@@ -103,36 +103,37 @@ struct StatusPort {
   unsigned quality = 0;
   unsigned delay = 0;
 
-  template <typename Port>
-  void write(Port& port) const {
+  std::uint64_t bits() const {
+    std::uint64_t all = 0;
     unsigned at = 0;
-    const auto add = [&port, &at](unsigned value, unsigned bits) {
-      for (unsigned i = 0; i < bits; ++i, ++at) {
-        const unsigned bit = 1U << at % 32;
-        port[at / 32] = (port[at / 32] & ~bit) | ((value >> i & 1U) != 0 ? bit : 0U);
-      }
+    const auto add = [&all, &at](unsigned value, unsigned size) {
+      all |= std::uint64_t{value & ((1U << size) - 1)} << at;
+      at += size;
     };
     add(delay << 8U, 12);
     add(0, 8 + 4 + 1);
     add(quality, 4);
     add(width - 8, 6);
     add(identity, 20);
-    add(0, 16 + 16);
     add(reason, 3);
     add(state, 4);
+    return all;
   }
 };
 
 // dsl_pkg::told_t.
 struct Told {
   explicit Told(unsigned port)
-      : acceleration_good((port >> 10U & 1U) != 0),
+      : bits(port),
+        acceleration_good((port >> 10U & 1U) != 0),
         acceleration_marked((port >> 9U & 1U) != 0),
         missing(port >> 4U & 0x1FU),
         safe1_valid((port >> 3U & 1U) != 0),
         safe1_error((port >> 2U & 1U) != 0),
         safe2_valid((port >> 1U & 1U) != 0),
         safe2_error((port & 1U) != 0) {}
+  unsigned checks() const { return bits >> 11U; }  // dsl_pkg::safe_checks_t
+  unsigned bits;
   bool acceleration_good;
   bool acceleration_marked;
   unsigned missing;

@@ -39,6 +39,7 @@ constexpr unsigned kTime = 24;
 constexpr unsigned kSafe[] = {32, 40};
 constexpr unsigned kAge[] = {48, 52};
 constexpr unsigned kWide = 56;
+constexpr unsigned kSearch = 64;  // clocks in which dsl_record may be busy
 // Bytes of each eight that hold something.
 constexpr std::array<unsigned, 8> kUsed = {5, 5, 8, 8, 8, 8, 8, 8};
 
@@ -71,8 +72,10 @@ class DslPositionBlock : public testing::Test {
     v.answer_i = m.answer_i = 0;
     m.told_i = 0;
     m.time_i = 0;
+    m.safe2_bits_i = m.tolerance_i = 0;
+    m.record_busy_i = 0;
     v.quirks_i = m.quirks_i = quirks_of({});
-    status.write(m.status_i);
+    m.status_i = status.bits();
     vertical_block.reset();
     position_block.reset();
     until_told(1500);
@@ -82,13 +85,18 @@ class DslPositionBlock : public testing::Test {
     v.answer_i = m.answer_i = port.bits();
     m.told_i = v.told_o;
     m.time_i = static_cast<std::uint8_t>(time >> 8 * (time_bytes % 8));
+    // dsl_record looks for a bank.
+    m.record_busy_i = busy != 0 ? 1 : 0;
+    if (busy != 0) --busy;
     m.eval();
     if (m.record_write_o != 0) {
+      EXPECT_EQ(m.record_busy_i, 0);
       bank[m.record_address_o] = m.record_data_o;
       written |= std::uint64_t{1} << m.record_address_o;
     }
     if (m.time_next_o != 0) ++time_bytes;
     told = m.tell_o != 0;
+    if (told) busy = random.below(4) == 0 ? kSearch : random.below(10);
     // POS falls with the record of its frame, not before it.
     EXPECT_TRUE(m.lost_o != 0 || was_certain || told);
     was_certain = m.lost_o == 0;
@@ -133,7 +141,7 @@ class DslPositionBlock : public testing::Test {
     EXPECT_EQ(m.lost_o, 1);
     if (!was_linked) return;
     const auto before = record;
-    until_told(200);
+    until_told(200 + kSearch);
     EXPECT_EQ(value(kAge[0], 4), kNever);
     EXPECT_EQ(value(kAge[1], 4), kNever);
     EXPECT_EQ(record[kStatus] & 0b1'1111, 1) << "no link, no safe position";
@@ -154,7 +162,7 @@ class DslPositionBlock : public testing::Test {
     status.width = bits;
     status.identity =
         (is_signed ? 1U << 10U : 0U) | (bits - acceleration_bits) << 4U | (acceleration_bits - 8);
-    status.write(m.status_i);
+    m.status_i = status.bits();
     end_link();
     port.linked = port.begins = true;
     clock();
@@ -212,7 +220,7 @@ class DslPositionBlock : public testing::Test {
     status.delay = random.below(16);
     status.state = random.below(16);
     status.reason = random.below(8);
-    status.write(m.status_i);
+    m.status_i = status.bits();
     sampled = time;
     ASSERT_FALSE(pending);
     ended = clocks_ever;
@@ -319,6 +327,7 @@ class DslPositionBlock : public testing::Test {
   bool line_speed = false;    // the words come as fast as a line brings them
   unsigned line_end = 12;     // clocks from the last word to the frame's end
   std::uint64_t longest = 0;  // from there to the record
+  unsigned busy = 0;          // clocks of dsl_record
 
   Encoder encoder;
   unsigned width = 32;

@@ -5,6 +5,7 @@
 // however many come after it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -16,7 +17,7 @@ namespace {
 
 constexpr unsigned kGroups = 6;
 constexpr unsigned kBytes = 64;
-constexpr unsigned kSearch = 8;  // clocks behind tell_i without a write
+constexpr unsigned kSearch = 64;  // clocks behind tell_i without a write, at most
 using Record = std::array<std::uint8_t, kBytes>;
 
 class DslRecordBlock : public testing::Test {
@@ -25,6 +26,7 @@ class DslRecordBlock : public testing::Test {
     m.write_i = m.tell_i = m.read_i = m.hold_i = 0;
     m.write_address_i = m.write_data_i = m.group_i = m.address_i = 0;
     block.reset();
+    while (m.busy_o != 0) block.clock();
   }
 
   // A record as dsl_position writes it, in any order of bytes, with reads in between.
@@ -45,26 +47,36 @@ class DslRecordBlock : public testing::Test {
     read(reads_each);
     m.tell_i = 0;
     newest = next;
-    for (unsigned i = 0; i < kSearch; ++i) read(reads_each);
+    search(reads_each);
   }
-  // A clock, with a read now and then.
+  void search(unsigned reads_each) {
+    unsigned clocks = 0;
+    while (m.busy_o != 0) {
+      read(reads_each);
+      ASSERT_LE(++clocks, kSearch);
+    }
+    longest = std::max(longest, clocks);
+  }
+  // A clock, with a read now and then, of the group that was asked for a clock before.
   void read(unsigned reads_each) {
     const bool reads = random.below(reads_each) == 0;
-    const unsigned group = random.below(kGroups);
+    const unsigned group = random.below(kGroups + 2);  // the last two are the newest record
     const unsigned address = random.below(kBytes);
-    const bool hold = random.below(8) == 0;
+    const bool hold = group < kGroups && random.below(reads_each) == 0 && random.below(8) == 0;
     m.read_i = reads;
     m.group_i = static_cast<std::uint8_t>(group);
     m.address_i = static_cast<std::uint8_t>(address);
     m.hold_i = hold;
-    if (reads && hold) {
+    if (hold) {
       held[group] = newest;
       ++holds;
     }
+    const std::uint8_t expected = asked[address];
+    asked = group < kGroups ? held[group] : newest;
     block.clock();
-    m.read_i = 0;
+    m.read_i = m.hold_i = 0;
     if (!reads) return;
-    ASSERT_EQ(m.data_o, held[group][address]) << "group " << group << " byte " << address;
+    ASSERT_EQ(m.data_o, expected) << "byte " << address;
   }
 
   mb4test::Dice random;
@@ -72,7 +84,9 @@ class DslRecordBlock : public testing::Test {
   Vdsl_record& m = block.model;
   Record newest{};
   std::array<Record, kGroups> held{};
+  Record asked{};  // the record of that group
   unsigned holds = 0;
+  unsigned longest = 0;  // clocks of a search
 };
 
 TEST_F(DslRecordBlock, ReadersAtRandom_SeeTheRecordThatTheyHold) {
@@ -91,12 +105,15 @@ TEST_F(DslRecordBlock, ReadersAtRandom_SeeTheRecordThatTheyHold) {
   m.tell_i = 0;
   newest = first;
   held.fill(first);
-  for (unsigned i = 0; i < kSearch; ++i) block.clock();
+  asked = first;
+  m.group_i = 0;
+  search(2);
   for (unsigned i = 0; i < 3000; ++i) {
     write(1U << random.below(11));
     if (HasFatalFailure()) return;
   }
   EXPECT_GT(holds, 1000U);
+  EXPECT_GT(longest, 20U);
 }
 
 }  // namespace

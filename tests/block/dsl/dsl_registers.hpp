@@ -24,12 +24,18 @@ constexpr unsigned kMostClocks = 64;  // of an access
 // Words that reset values and constants give, by address. Those that are 0 are left out.
 inline std::map<unsigned, std::uint32_t> reset_words(bool sdk) {
   std::map<unsigned, std::uint32_t> words;
+  namespace map = dsl::regs;
   const auto only_sdk = [](unsigned address) {
-    return address == dsl::regs::kAddrSafeCtrl || address == dsl::regs::kAddrSafeSum ||
-           address == dsl::regs::kAddrAccErrCntThresh;
+    return address == map::kAddrSafeCtrl || address == map::kAddrSafeSum ||
+           address == map::kAddrAccErrCntThresh || address == map::kAddrMaxdevThreshH ||
+           address == map::kAddrMaxdevThreshL;
+  };
+  const auto not_sdk = [](unsigned address) {
+    return address == map::kAddrPipeS || address == map::kAddrSSlaveRegCtrl ||
+           address == map::kAddrMaxacc;
   };
   for (const auto& field : dsl::regs::kFields) {
-    if (only_sdk(field.address) && !sdk) continue;
+    if (sdk ? not_sdk(field.address) : only_sdk(field.address)) continue;
     std::uint32_t value = field.reset;
     if (field.address == dsl::regs::kAddrCodeVersion && sdk) value = 0x10;
     words[field.address & ~3U] |= value << (field.lsb + 8 * (field.address & 3U));
@@ -81,6 +87,11 @@ inline constexpr WordOfRecord kWords[] = {
 // The first word of a group copies the others.
 inline bool is_first(const WordOfRecord& word) {
   return &word == kWords || word.group != (&word)[-1].group;
+}
+
+// Bits of a word that are of its group: POSTX stands beside the last one of the byte map.
+inline std::uint32_t bits_of_group(const WordOfRecord& word) {
+  return word.address == dsl::regs::kAddrVposcrc2H ? 0xFFFFU : 0xFFFF'FFFFU;
 }
 
 inline std::uint32_t word_of(const WordOfRecord& word, const Record& record) {

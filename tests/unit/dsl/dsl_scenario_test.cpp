@@ -68,6 +68,7 @@ TEST(DslScenario, Defaults_AreThoseOfThePage) {
   EXPECT_EQ(rules.vsync_limit, 64U);
   EXPECT_EQ(rules.stale_limit, 2U);
   EXPECT_TRUE(rules.strict_id);
+  EXPECT_TRUE(rules.check_answers);
 }
 
 TEST(DslScenario, KeysAreRead) {
@@ -75,7 +76,8 @@ TEST(DslScenario, KeysAreRead) {
       std::string(kMaster) +
           "[chip]\nf_clk_hz = 75_007_500\n[chip.quirks]\nRECOVER = false\nSTRICT_CODE = false\n"
           "SAMPLE = 1\nRULES = \"firmware\"\nRSSI_TABLE = true\nRX_START = 15\nSTART_BLOCKS = 26\n"
-          "VSYNC_LIMIT = 255\nSTALE_LIMIT = 3\nSTRICT_ID = false\n[host]\ninterface = "
+          "VSYNC_LIMIT = 255\nSTALE_LIMIT = 3\nSTRICT_ID = false\nCHECK_ANSWERS = "
+          "false\n[host]\ninterface = "
           "\"none\"\nlink_ms = 2.5\n" +
           "[[channel]]\nnumber = 1\nanswer_errors = 1e-4\nmaster_errors = 0.01\n"
           "[[channel.slave]]\nprotocol = \"dsl\"\nposition_bits = 40\nacceleration_bits = 8\n"
@@ -99,6 +101,7 @@ TEST(DslScenario, KeysAreRead) {
   EXPECT_EQ(rules.vsync_limit, 255U);
   EXPECT_EQ(rules.stale_limit, 3U);
   EXPECT_FALSE(rules.strict_id);
+  EXPECT_FALSE(rules.check_answers);
   const DuplexConfig& cable = duplex(*scenario.channels.front().cable);
   EXPECT_EQ(cable.answer_errors, 1e-4);
   EXPECT_EQ(cable.master_errors, 0.01);
