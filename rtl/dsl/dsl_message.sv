@@ -172,7 +172,7 @@ module dsl_message (
                    || (copied && !copy_long);
   assign ends_short = (answers && !(again_q && !wait_q[6]))
                    || (done_q && (over || (takes && wait_q[6])));
-  assign ends_long  = copied && copy_long;
+  assign ends_long  = copied && copy_long && long_open_q;
   assign fails      = breaks || (over && long_begun);
 
   assign messages_o.long_runs = long_q;
