@@ -33,7 +33,7 @@ def main():
     for kind in structs:
         lines += ["", f"namespace {kind} {{"]
         lines += [f"inline constexpr Place {camel(names)}{{{lsb}, {width}}};" for names, lsb, width in places(structs, kind)]
-        lines.append("}")
+        lines += [f"inline constexpr unsigned kAllBits = {max(f.lsb + f.width for f in structs[kind])};", "}"]
     out.write_text("\n".join([*lines, "", "}  // namespace mb4test::places", "", "#endif", ""]), encoding="utf-8")
 
 

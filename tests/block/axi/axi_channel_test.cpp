@@ -13,10 +13,13 @@
 #include <vector>
 
 #include "Vaxi_channel.h"
+#include "places.hpp"
 #include "tests/block/biss/frame_bench.hpp"
 #include "tests/support/model_context.hpp"
 
 namespace {
+
+namespace at = mb4test::places::axi_pkg;
 
 constexpr std::uint32_t kCrc6 = 0x43;
 constexpr unsigned kLongestDelay = 1023, kStartLimit = 1024, kTimeoutLimit = 4000;
@@ -28,10 +31,11 @@ struct Frame {
   unsigned flags = 3;  // nE, nW
   unsigned busy = 0, delay = 0;
   int wrong_bit = -1;  // of position, flags and CRC
-  // axi_pkg::frame_t, the last field lowest; edges as axi_channel's header has them.
+  // Edges as axi_channel's header has them.
   std::uint32_t port() const {
-    return (half - 1) << 16 | (bits + 1) << 9 | (4 + bits + 2 + 6) << 2 | (check ? 2U : 0U) |
-           (single ? 1U : 0U);
+    using namespace at::frame_t;
+    return static_cast<std::uint32_t>(kHalfLast(half - 1) | kDataLast(bits + 1) |
+                                      kEdges(4 + bits + 2 + 6) | kCheck(check) | kSingle(single));
   }
   std::string word() const {
     std::string text = mb4test::line_word(std::uint64_t{position} << 2 | flags, bits + 2, kCrc6);
@@ -46,9 +50,9 @@ class AxiChannelBlock : public testing::Test {
 
   AxiChannelBlock() {
     m.frame_i = Frame{}.port();
-    // axi_pkg::rule_t: the CRC does not count here, the timeout is adaptive.
+    // The CRC does not count here, the timeout is adaptive.
     for (auto& word : m.rule_i.m_storage) word = 0;
-    m.rule_i[0] = kTimeoutLimit - 1;
+    at::rule_t::kTimeoutLast.set(m.rule_i, kTimeoutLimit - 1);
     m.cdm_i = 0;
     m.clear_i = m.enabled_i = m.start_i = m.request_i = m.tick_i = 0;
     m.half_next_i = m.slo_i = 1;
@@ -160,15 +164,16 @@ class AxiChannelBlock : public testing::Test {
   }
 
   std::vector<std::uint64_t> results() const { return {m.result_o, m.word_o, m.single_valid_o}; }
-  // axi_pkg::result_t, axi_pkg::word_t.
-  std::uint32_t single_position() const { return static_cast<std::uint32_t>(m.result_o >> 22); }
-  unsigned delay() const { return m.result_o >> 12 & 0x3FFU; }
-  unsigned received() const { return m.result_o >> 6 & 0x3FU; }
-  unsigned calculated() const { return m.result_o & 0x3FU; }
-  std::uint32_t position() const { return static_cast<std::uint32_t>(m.word_o >> 4); }
-  bool crc_bad() const { return (m.word_o & 8U) != 0; }
-  unsigned flags() const { return (m.word_o & 2U) | (m.word_o >> 2 & 1U); }  // nE, nW
-  bool good() const { return (m.word_o & 1U) != 0; }
+  std::uint64_t single_position() const { return at::result_t::kSingle.of(m.result_o); }
+  std::uint64_t delay() const { return at::result_t::kDelay.of(m.result_o); }
+  std::uint64_t received() const { return at::result_t::kReceived.of(m.result_o); }
+  std::uint64_t calculated() const { return at::result_t::kCalculated.of(m.result_o); }
+  std::uint64_t position() const { return at::word_t::kPosition.of(m.word_o); }
+  bool crc_bad() const { return at::word_t::kCrcBad.of(m.word_o) != 0; }
+  std::uint64_t flags() const {  // nE, nW
+    return at::word_t::kNerr.of(m.word_o) << 1 | at::word_t::kNwarn.of(m.word_o);
+  }
+  bool good() const { return at::word_t::kGood.of(m.word_o) != 0; }
 
   mb4test::Dice random;
   mb4test::Block<Vaxi_channel> block;
@@ -190,7 +195,7 @@ TEST_F(AxiChannelBlock, RandomWordsAndDelays_ReachTheResults) {
     SCOPED_TRACE(testing::Message() << "round " << round << " bits " << next.bits << " half "
                                     << next.half << " delay " << next.delay);
     timeout = 2 * next.half + next.delay + 50;
-    const std::uint32_t before = single_position();
+    const std::uint64_t before = single_position();
     start(next, true);
     EXPECT_FALSE(good());
     EXPECT_EQ(m.single_valid_o, 0);

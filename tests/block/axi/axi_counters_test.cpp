@@ -17,8 +17,7 @@ namespace {
 namespace reg = biss_axi::regs;
 
 TEST(AxiCountersBlock, RandomEvents_AreCountedInTheirChannel) {
-  // Places in axi_pkg::event_t.
-  constexpr unsigned kEnded = 5, kFailed = 4, kCrcError = 3, kLate = 2, kBits = 7;
+  using namespace mb4test::places::axi_pkg::event_t;
   mb4test::Dice dice;
   mb4test::Block<Vaxi_counters> block;
   Vaxi_counters& m = block.model;
@@ -28,15 +27,16 @@ TEST(AxiCountersBlock, RandomEvents_AreCountedInTheirChannel) {
   block.reset();
   std::array<std::array<std::uint32_t, 3>, 3> expected{};
   for (int clock = 0; clock < 250'000; ++clock) {
-    const unsigned events =
-        clock < 200'000 ? 1U << 5 | 1U << 3 | 1U << (7 + kLate) : dice.below(1U << 21);
+    const auto events = static_cast<std::uint32_t>(clock < 200'000 ? kEnded(1) | kCrcError(1) |
+                                                                         kLate.in(1, kAllBits)(1)
+                                                                   : dice.below(1U << 21));
     m.events_i = events;
     m.clear_i = dice.below(clock < 200'000 ? 1'000'000 : 500) == 1;
     for (unsigned c = 0; c < 3; ++c) {
-      const unsigned mine = events >> c * kBits;
-      if ((mine >> kEnded & 1U) != 0 || (mine >> kFailed & 1U) != 0) ++expected[c][0];
-      expected[c][1] = (expected[c][1] + (mine >> kCrcError & 1U)) & 0xFFFF;
-      expected[c][2] = (expected[c][2] + (mine >> kLate & 1U)) & 0xFFFF;
+      const unsigned mine = events >> c * kAllBits;
+      if (kEnded.of(mine) != 0 || kFailed.of(mine) != 0) ++expected[c][0];
+      expected[c][1] = (expected[c][1] + kCrcError.of(mine)) & 0xFFFF;
+      expected[c][2] = (expected[c][2] + kLate.of(mine)) & 0xFFFF;
       if (m.clear_i != 0) expected[c] = {};
     }
     block.clock();

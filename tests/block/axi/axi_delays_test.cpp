@@ -18,7 +18,7 @@ namespace {
 
 namespace reg = biss_axi::regs;
 
-constexpr unsigned kChannels = 5, kResultBits = 54, kDelay = 12, kNoAck = 1023;
+constexpr unsigned kChannels = 5, kNoAck = 1023;
 
 class AxiDelaysBlock : public testing::Test {
  protected:
@@ -31,7 +31,8 @@ class AxiDelaysBlock : public testing::Test {
     block.reset();
   }
   void set_delay(unsigned channel, unsigned delay) {
-    mb4test::set_bits(m.results_i, channel * kResultBits + kDelay, 10, delay);
+    using namespace mb4test::places::axi_pkg::result_t;
+    kDelay.in(channel, kAllBits).set(m.results_i, delay);
   }
   // The end of a frame, and what is made of its delays. Returns the number of alarms.
   unsigned done() {

@@ -18,9 +18,7 @@ namespace {
 namespace reg = biss_axi::regs;
 
 constexpr unsigned kChannels = 3;
-// axi_pkg: widths and places.
-constexpr unsigned kWordBits = 36, kWordPosition = 4, kMoreBits = 84, kMorePosition = 20;
-constexpr unsigned kEnded = 5, kFailed = 4, kCrcError = 3, kLate = 2, kEventBits = 7;
+namespace event_t = mb4test::places::axi_pkg::event_t;
 
 struct Last {
   std::uint32_t number = 0;
@@ -69,22 +67,22 @@ TEST(AxiLastBlock, ReadsAtRandom_AreShownWithTheirNumberAndPosition) {
       unsigned events = 0;
       if (m.start_i != 0) {
         if (dice.below(8) != 0) continue;
-        events = 1U << kLate;  // only in the clock of the start
+        events = static_cast<unsigned>(event_t::kLate(1));  // only in the clock of the start
       } else {
         if (dice.below(6) != 0) continue;
         const unsigned kind = dice.below(4);
-        events = kind == 0   ? 1U << kFailed
-                 : kind == 1 ? 1U << kEnded | 1U << kCrcError
-                             : 1U << kEnded;
+        events = static_cast<unsigned>(kind == 0   ? event_t::kFailed(1)
+                                       : kind == 1 ? event_t::kEnded(1) | event_t::kCrcError(1)
+                                                   : event_t::kEnded(1));
       }
       ends[c] = true;
       waits &= ~(1U << c);
-      m.events_i = m.events_i | events << c * kEventBits;
+      m.events_i = m.events_i | events << c * event_t::kAllBits;
       Last& last = next[c];
       last.number = number;
-      last.late = (events >> kLate & 1U) != 0;
-      last.crc = (events >> kCrcError & 1U) != 0;
-      last.good = (events >> kEnded & 1U) != 0 && !(last.crc && m.check_i != 0);
+      last.late = event_t::kLate.of(events) != 0;
+      last.crc = event_t::kCrcError.of(events) != 0;
+      last.good = event_t::kEnded.of(events) != 0 && !(last.crc && m.check_i != 0);
       if (last.good) {
         position[c] = std::uint64_t{dice.below(1U << 31)} << 33U | dice.below(1U << 31);
         last.nerr = dice.below(2) != 0;
@@ -119,12 +117,12 @@ TEST(AxiLastBlock, ReadsAtRandom_AreShownWithTheirNumberAndPosition) {
       if (!ends[c]) continue;
       const Last& last = next[c];
       if (last.good) {
-        mb4test::set_bits(m.words_i, c * kWordBits + kWordPosition, 32,
-                          static_cast<std::uint32_t>(position[c]));
-        mb4test::set_bits(m.words_i, c * kWordBits + 1, 1, last.nerr ? 1 : 0);
-        mb4test::set_bits(m.words_i, c * kWordBits + 2, 1, last.nwarn ? 1 : 0);
-        mb4test::set_bits(m.mores_i, c * kMoreBits + kMorePosition, 32,
-                          static_cast<std::uint32_t>(position[c] >> 32U));
+        namespace word_t = mb4test::places::axi_pkg::word_t;
+        namespace more_t = mb4test::places::axi_pkg::more_t;
+        word_t::kPosition.in(c, word_t::kAllBits).set(m.words_i, position[c]);
+        word_t::kNerr.in(c, word_t::kAllBits).set(m.words_i, last.nerr);
+        word_t::kNwarn.in(c, word_t::kAllBits).set(m.words_i, last.nwarn);
+        more_t::kPositionHigh.in(c, more_t::kAllBits).set(m.mores_i, position[c] >> 32U);
       }
     }
     expected = next;
@@ -151,7 +149,8 @@ TEST(AxiLastBlock, DisabledChannelAndSoftReset_HaveNoWord) {
     m.start_i = 1;
     block.clock();
     m.start_i = 0;
-    m.events_i = 1U << kEnded | 1U << (kEnded + kEventBits);
+    m.events_i = static_cast<std::uint32_t>(event_t::kEnded(1) |
+                                            event_t::kEnded.in(1, event_t::kAllBits)(1));
     block.clock();
     m.events_i = 0;
   }

@@ -152,9 +152,9 @@ TEST_F(AxiPageBlock, Configuration_ReachesItsFields) {
     EXPECT_EQ(read(reg::kAddrCrcPolynomial), polynomial);
     EXPECT_EQ(read(reg::kAddrCrcStart), start);
     EXPECT_EQ(read(reg::kAddrTimeout), timeout);
-    // axi_pkg::page_t.
-    EXPECT_EQ(m.page_o, std::uint64_t{polynomial} << 37U | std::uint64_t{start} << 21U |
-                            std::uint64_t{timeout >> 31U} << 20U | (timeout & 0xFFFFFU));
+    namespace at = mb4test::places::axi_pkg::page_t;
+    EXPECT_EQ(m.page_o, at::kCrcPolynomial(polynomial) | at::kCrcStart(start) |
+                            at::kTimeoutFixed(timeout >> 31U) | at::kTimeoutLimit(timeout));
   }
 }
 

@@ -12,6 +12,7 @@
 #include <map>
 
 #include "Vaxi_regs.h"
+#include "places.hpp"
 #include "tests/support/model_context.hpp"
 
 namespace {
@@ -20,7 +21,6 @@ namespace reg = biss_axi::regs;
 
 constexpr unsigned kChannels = 5;
 constexpr std::uint32_t kPresent = (1U << kChannels) - 1;
-constexpr unsigned kResultBits = 54;  // axi_pkg::result_t
 
 // The bits that a host can write. An index of five channels has three bits.
 const std::map<unsigned, std::uint32_t> kWritable{{reg::kAddrSoftReset, 0x1},
@@ -71,15 +71,11 @@ class AxiRegsBlock : public testing::Test {
   }
   std::uint32_t any() { return random.below(0x10000) << 16 | random.below(0x10000); }
   void set_result(unsigned channel, const Result& result) {
-    const std::uint64_t value = std::uint64_t{result.single} << 22 |
-                                std::uint64_t{result.delay} << 12 | result.received << 6 |
-                                result.calculated;
-    for (unsigned bit = 0; bit < kResultBits; ++bit) {
-      const unsigned place = channel * kResultBits + bit;
-      const std::uint32_t mask = 1U << place % 32;
-      std::uint32_t& word = m.results_i[place / 32];
-      word = (value >> bit & 1U) != 0 ? word | mask : word & ~mask;
-    }
+    using namespace mb4test::places::axi_pkg::result_t;
+    kSingle.in(channel, kAllBits).set(m.results_i, result.single);
+    kDelay.in(channel, kAllBits).set(m.results_i, result.delay);
+    kReceived.in(channel, kAllBits).set(m.results_i, result.received);
+    kCalculated.in(channel, kAllBits).set(m.results_i, result.calculated);
   }
 
   mb4test::Dice random;
@@ -114,18 +110,15 @@ TEST_F(AxiRegsBlock, RandomWrites_ReachTheirBitsOnly) {
     const unsigned other = 4 * random.below(64);
     ASSERT_EQ(read(address), expected[address]) << std::hex << address;
     ASSERT_EQ(read(other), expected[other]) << std::hex << other;
-    // axi_pkg::cfg_t, the last field lowest.
-    std::uint64_t cfg = 0;
-    const auto add = [&](unsigned from, unsigned bits) { cfg = cfg << bits | expected[from]; };
-    add(reg::kAddrSoftReset, 1);
-    add(reg::kAddrSampleClock, 1);
-    add(reg::kAddrMode, 1);
-    add(reg::kAddrRequest, 1);
-    add(reg::kAddrSampleDivider, 28);
-    add(reg::kAddrMaDivider, 8);
-    add(reg::kAddrPositionBits, 8);
-    add(reg::kAddrCrcCheck, 1);
-    ASSERT_EQ(m.cfg_o, cfg);
+    namespace cfg_t = mb4test::places::axi_pkg::cfg_t;
+    ASSERT_EQ(m.cfg_o, cfg_t::kSoftReset(expected[reg::kAddrSoftReset]) |
+                           cfg_t::kExternalClock(expected[reg::kAddrSampleClock]) |
+                           cfg_t::kSinglePoint(expected[reg::kAddrMode]) |
+                           cfg_t::kRequest(expected[reg::kAddrRequest]) |
+                           cfg_t::kSampleDivider(expected[reg::kAddrSampleDivider]) |
+                           cfg_t::kMaDivider(expected[reg::kAddrMaDivider]) |
+                           cfg_t::kPositionBits(expected[reg::kAddrPositionBits]) |
+                           cfg_t::kCrcCheck(expected[reg::kAddrCrcCheck]));
     ASSERT_EQ(m.enable_o, expected[reg::kAddrChannelEnable]);
     ASSERT_EQ(m.ma_shift_o, expected[reg::kAddrMaShift]);
   }

@@ -21,8 +21,9 @@ struct Page {
   bool fixed;
   std::uint32_t limit;
   std::uint64_t port() const {
-    return std::uint64_t{polynomial} << 37U | std::uint64_t{start} << 21U |
-           std::uint64_t{fixed} << 20U | limit;
+    namespace at = mb4test::places::axi_pkg::page_t;
+    return at::kCrcPolynomial(polynomial) | at::kCrcStart(start) | at::kTimeoutFixed(fixed) |
+           at::kTimeoutLimit(limit);
   }
 };
 
@@ -52,16 +53,14 @@ TEST(AxiRuleBlock, Registers_CountWhenTheyAreTaken) {
     block.clock();
     if (!any) continue;
     const unsigned bits = static_cast<unsigned>(std::bit_width(polynomial(taken))) - 1;
-    const auto field = [&](unsigned lsb, unsigned width) {
-      return mb4test::get_bits(m.rule_o, lsb, width);
-    };
+    namespace at = mb4test::places::axi_pkg::rule_t;
     const std::uint32_t limit = taken.limit == 0 ? kLimit : taken.limit;
-    ASSERT_EQ(field(0, 20), limit - 1);
-    ASSERT_EQ(field(20, 1), taken.fixed ? 1U : 0U);
-    ASSERT_EQ(field(21, 4), bits - 1);
-    ASSERT_EQ(field(25, 16), taken.start);
-    ASSERT_EQ(field(41, 16), 1U << (bits - 1));
-    ASSERT_EQ(field(57, 16), polynomial(taken) & ((1U << bits) - 1U));
+    ASSERT_EQ(at::kTimeoutLast.get(m.rule_o), limit - 1);
+    ASSERT_EQ(at::kFixed.get(m.rule_o), taken.fixed ? 1U : 0U);
+    ASSERT_EQ(at::kCrcLast.get(m.rule_o), bits - 1);
+    ASSERT_EQ(at::kCrcStart.get(m.rule_o), taken.start);
+    ASSERT_EQ(at::kCrcTop.get(m.rule_o), 1U << (bits - 1));
+    ASSERT_EQ(at::kCrcPoly.get(m.rule_o), polynomial(taken) & ((1U << bits) - 1U));
   }
 }
 

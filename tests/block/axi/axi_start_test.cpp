@@ -9,29 +9,26 @@
 #include <vector>
 
 #include "Vaxi_start.h"
+#include "places.hpp"
 #include "tests/support/model_context.hpp"
 
 namespace {
 
-// axi_pkg::cfg_t, the last field lowest.
 struct Config {
   bool soft_reset = false, external_clock = false, single_point = false, request = false;
   std::uint32_t sample_divider = 5;
   unsigned ma_divider = 4, position_bits = 26;
   std::uint64_t port() const {
-    std::uint64_t value = 0;
-    const auto add = [&](std::uint64_t field, unsigned bits) { value = value << bits | field; };
-    add(soft_reset, 1);
-    add(external_clock, 1);
-    add(single_point, 1);
-    add(request, 1);
-    add(sample_divider, 28);
-    add(ma_divider, 8);
-    add(position_bits, 8);
-    add(0, 1);  // CRC check: port check_i
-    return value;
+    namespace at = mb4test::places::axi_pkg::cfg_t;
+    // Whether the CRC is checked is the port check_i here.
+    return at::kSoftReset(soft_reset) | at::kExternalClock(external_clock) |
+           at::kSinglePoint(single_point) | at::kRequest(request) |
+           at::kSampleDivider(sample_divider) | at::kMaDivider(ma_divider) |
+           at::kPositionBits(position_bits);
   }
 };
+
+namespace frame_t = mb4test::places::axi_pkg::frame_t;
 
 class AxiStartBlock : public testing::Test {
  protected:
@@ -76,12 +73,11 @@ class AxiStartBlock : public testing::Test {
     config.request = false;
     clocks(10);
   }
-  // axi_pkg::frame_t.
-  unsigned half_last() const { return m.frame_o >> 16; }
-  unsigned data_bits() const { return (m.frame_o >> 9 & 0x7FU) + 1; }
-  unsigned ma_edges() const { return m.frame_o >> 2 & 0x7FU; }
-  bool check() const { return (m.frame_o & 2U) != 0; }
-  bool single() const { return (m.frame_o & 1U) != 0; }
+  std::uint64_t half_last() const { return frame_t::kHalfLast.of(m.frame_o); }
+  std::uint64_t data_bits() const { return frame_t::kDataLast.of(m.frame_o) + 1; }
+  std::uint64_t ma_edges() const { return frame_t::kEdges.of(m.frame_o); }
+  bool check() const { return frame_t::kCheck.of(m.frame_o) != 0; }
+  bool single() const { return frame_t::kSingle.of(m.frame_o) != 0; }
 
   mb4test::Block<Vaxi_start> block;
   Vaxi_start& m = block.model;

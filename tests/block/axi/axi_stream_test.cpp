@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "Vaxi_stream_beats.h"
+#include "places.hpp"
 #include "tests/support/model_context.hpp"
 
 namespace {
@@ -19,7 +20,6 @@ using mb4test::Block;
 using Stream = Block<Vaxi_stream_beats>;
 
 constexpr unsigned kChannels = 5;
-constexpr unsigned kWordBits = 36;  // axi_pkg::word_t
 
 struct Beat {
   std::uint32_t data;
@@ -30,13 +30,12 @@ struct Beat {
 
 // Position, and 3 crc_bad, 2 nwarn, 1 nerr, 0 good.
 void set_word(Vaxi_stream_beats& m, unsigned channel, std::uint32_t position, unsigned flags) {
-  const std::uint64_t word = std::uint64_t{position} << 4U | flags;
-  for (unsigned bit = 0; bit < kWordBits; ++bit) {
-    const unsigned place = channel * kWordBits + bit;
-    const std::uint32_t mask = 1U << place % 32;
-    const bool one = (word >> bit & 1U) != 0;
-    m.words_i[place / 32] = one ? m.words_i[place / 32] | mask : m.words_i[place / 32] & ~mask;
-  }
+  using namespace mb4test::places::axi_pkg::word_t;
+  kPosition.in(channel, kAllBits).set(m.words_i, position);
+  kCrcBad.in(channel, kAllBits).set(m.words_i, flags >> 3U);
+  kNwarn.in(channel, kAllBits).set(m.words_i, flags >> 2U);
+  kNerr.in(channel, kAllBits).set(m.words_i, flags >> 1U);
+  kGood.in(channel, kAllBits).set(m.words_i, flags);
 }
 
 void begin(Stream& stream) {
@@ -160,12 +159,9 @@ TEST(AxiStreamBlock, RandomStops_LeavePacketsWholeAndInOrder) {
     m.enabled_i = static_cast<std::uint8_t>(enabled);
     std::vector<Beat> frame;
     for (unsigned c = 0; c < kChannels; ++c) {
-      set_word(m, c, read, dice.below(16));
+      const unsigned flags = dice.below(16);
+      set_word(m, c, read, flags);
       if ((enabled >> c & 1U) == 0) continue;
-      const unsigned place = c * kWordBits;
-      const std::uint64_t words = m.words_i[place / 32] | std::uint64_t{m.words_i[place / 32 + 1]}
-                                                              << 32U;
-      const auto flags = static_cast<unsigned>(words >> place % 32 & 15U);
       frame.push_back({read, c << 8U | flags, (enabled >> (c + 1)) == 0});
     }
     m.done_i = 1;

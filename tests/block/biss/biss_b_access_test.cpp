@@ -12,10 +12,13 @@
 #include <vector>
 
 #include "Vbiss_b_access.h"
+#include "places.hpp"
 #include "tests/block/biss/frame_bench.hpp"
 #include "tests/support/model_context.hpp"
 
 namespace {
+
+namespace at = mb4test::places::biss_pkg;
 
 using mb4test::bits_of;
 
@@ -42,9 +45,10 @@ struct Access {
 
   unsigned quarter() const { return half << freqr; }  // clocks; Table 36: MA periods 2^(FREQR + 1)
   unsigned cell() const { return 4 * quarter(); }
-  // The fields of biss_pkg::access_t, the last one lowest.
   std::uint32_t port() const {
-    return (write ? 1U : 0U) << 16 | address << 9 | (count - 1) << 3 | id;
+    namespace access_t = at::access_t;
+    return static_cast<std::uint32_t>(access_t::kWrite(write) | access_t::kAddr(address) |
+                                      access_t::kByteLast(count - 1) | access_t::kId(id));
   }
   std::string header() const {
     return part(bits_of(id, 3) + bits_of(address, 7) + (write ? "1" : "0"));
@@ -116,19 +120,20 @@ class BAccessBlock : public testing::Test {
     m.tick_i = now % access.half == access.half - 1;
     m.sl_i = static_cast<std::uint8_t>(history[1]);
     m.eval();
-    const bool next = m.tick_i != 0 ? (m.ma_o & 2U) != 0 : ma;
-    // biss_pkg: access_byte_t, register_ma_t, access_end_t.
-    const unsigned index = m.byte_o >> 8 & 0x3FU;
-    if ((m.byte_o >> 14 & 1U) != 0) written.push_back({index, m.byte_o & 0xFFU});
-    const bool ends = (m.ma_o & 1U) != 0;
-    EXPECT_EQ(m.end_o >> 8 & 1U, ends && !init ? 1U : 0U) << "INIT is no access";
+    const bool next = m.tick_i != 0 ? at::register_ma_t::kLevel.of(m.ma_o) != 0 : ma;
+    const auto index = static_cast<unsigned>(at::access_byte_t::kAddr.of(m.byte_o));
+    if (at::access_byte_t::kWrEn.of(m.byte_o) != 0) {
+      written.push_back({index, static_cast<unsigned>(at::access_byte_t::kWrData.of(m.byte_o))});
+    }
+    const bool ends = at::register_ma_t::kEnds.of(m.ma_o) != 0;
+    EXPECT_EQ(at::access_end_t::kEnds.of(m.end_o), ends && !init ? 1U : 0U) << "INIT is no access";
     if (ends) {
       EXPECT_FALSE(ended) << "it ends twice";
       ended = true;
       ended_at = now;
       ags_error = m.ags_error_o != 0;
-      reg_error = (m.end_o >> 7 & 1U) != 0;
-      delay_error = (m.end_o >> 6 & 1U) != 0;
+      reg_error = at::access_end_t::kRegError.of(m.end_o) != 0;
+      delay_error = at::access_end_t::kDelayError.of(m.end_o) != 0;
     }
     history = {sl, history[0]};
     block.clock();
@@ -145,7 +150,7 @@ class BAccessBlock : public testing::Test {
     }
     m.eval();
   }
-  unsigned good_bytes() const { return m.end_o & 0x3FU; }
+  std::uint64_t good_bytes() const { return at::access_end_t::kGoodBytes.of(m.end_o); }
   // Hand-over: MA falls, and the slaves of the lines in use answer with SL = 0.
   void hand_over(unsigned wait) {
     while (falls.empty() && now < 10'000) clock();
@@ -374,7 +379,7 @@ TEST_F(BAccessBlock, HandOver_WaitsForSlOrHalfAClock) {
     }
     if (m.abort_i != 0) {
       m.eval();
-      ASSERT_EQ(m.ma_o & 1U, 0U) << "BREAK is no end";
+      ASSERT_EQ(at::register_ma_t::kEnds.of(m.ma_o), 0U) << "BREAK is no end";
       clock();
       m.abort_i = 0;
     }

@@ -12,10 +12,13 @@
 #include <vector>
 
 #include "Vbiss_control_frame.h"
+#include "places.hpp"
 #include "tests/block/biss/control_script.hpp"
 #include "tests/support/model_context.hpp"
 
 namespace {
+
+namespace at = mb4test::places::biss_pkg;
 
 using mb4test::ControlAccess;
 using mb4test::ControlScript;
@@ -37,17 +40,18 @@ class ControlFrameBlock : public testing::Test {
   }
   void clock() {
     m.eval();
-    // biss_pkg: access_byte_t.
-    const unsigned place = m.byte_o >> 8 & 0x3FU;
-    if ((m.byte_o >> 14 & 1U) != 0) written.push_back({place, m.byte_o & 0xFFU});
+    const auto place = static_cast<unsigned>(at::access_byte_t::kAddr.of(m.byte_o));
+    if (at::access_byte_t::kWrEn.of(m.byte_o) != 0) {
+      written.push_back({place, static_cast<unsigned>(at::access_byte_t::kWrData.of(m.byte_o))});
+    }
     block.clock();
     m.rdata_i = static_cast<std::uint8_t>(rdata[place]);
     m.eval();
-    if ((m.end_o >> 8 & 1U) != 0) {
+    if (at::access_end_t::kEnds.of(m.end_o) != 0) {
       EXPECT_FALSE(ended) << "it ends twice";
       ended = true;
-      reg_error = (m.end_o >> 7 & 1U) != 0;
-      delay_error = (m.end_o >> 6 & 1U) != 0;
+      reg_error = at::access_end_t::kRegError.of(m.end_o) != 0;
+      delay_error = at::access_end_t::kDelayError.of(m.end_o) != 0;
     }
   }
   void clocks(unsigned count) {
@@ -119,7 +123,7 @@ class ControlFrameBlock : public testing::Test {
     }
     return at;
   }
-  unsigned good_bytes() const { return m.end_o & 0x3FU; }
+  std::uint64_t good_bytes() const { return at::access_end_t::kGoodBytes.of(m.end_o); }
   ControlAccess random_access(bool write) { return mb4test::random_access(random, write, 4); }
   ControlAccess command(unsigned ids, unsigned cmd, bool tested) {
     ControlAccess made;
@@ -168,7 +172,7 @@ TEST_F(ControlFrameBlock, RandomRegisterAccesses_AreAsOnTheLine) {
     ASSERT_TRUE(ended);
     ASSERT_FALSE(reg_error || delay_error || m.active_o != 0);
     ASSERT_EQ(good_bytes(), access.bytes.size());
-    ASSERT_EQ(written, read_bytes(good_bytes()));
+    ASSERT_EQ(written, read_bytes(static_cast<unsigned>(good_bytes())));
   }
 }
 

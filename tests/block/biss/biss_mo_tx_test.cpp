@@ -11,11 +11,14 @@
 #include <vector>
 
 #include "Vbiss_mo_tx.h"
+#include "places.hpp"
 #include "tests/block/biss/frame_bench.hpp"
 #include "tests/block/biss/word.hpp"
 #include "tests/support/model_context.hpp"
 
 namespace {
+
+namespace places = mb4test::places::biss_pkg;
 
 using mb4test::bits_of;
 using mb4test::line_word;
@@ -40,8 +43,9 @@ class MoTxBlock : public testing::Test {
     drive();
     m.eval();
     const bool next = m.next_o != 0;
-    const bool read = (m.read_o & 0x40) != 0;  // biss_pkg::mo_read_t
-    const unsigned address = m.read_o & 0x3F;
+    const bool read = places::mo_read_t::kRdEn.of(m.read_o) != 0;
+    const std::uint64_t address =
+        8 * places::mo_read_t::kSlave.of(m.read_o) + places::mo_read_t::kPlace.of(m.read_o);
     block.clock();
     if (next && at + 1 < slots.size()) ++at;
     if (read) m.data_i = memory[address];
@@ -101,7 +105,7 @@ class MoTxBlock : public testing::Test {
     return text;
   }
 
-  // What MO follows, by the fields of biss_pkg::line_cmd_t and line_go_t.
+  // What MO follows.
   struct Inputs {
     bool enable = false, low = false;
     unsigned busy = 0;
@@ -118,18 +122,19 @@ class MoTxBlock : public testing::Test {
 
  private:
   void drive() {
-    m.cmd_i = static_cast<std::uint16_t>((now.enable ? 1U << 12 : 0) | now.busy << 4 |
-                                         (now.low ? 1U : 0));
-    m.go_i = static_cast<std::uint8_t>((now.reduced ? 4 : 0) | (now.returns ? 2 : 0));
+    m.cmd_i = static_cast<std::uint16_t>(places::line_cmd_t::kMoEn(now.enable) |
+                                         places::line_cmd_t::kMoBusy(now.busy) |
+                                         places::line_cmd_t::kMoLow(now.low));
+    m.go_i = static_cast<std::uint8_t>(places::line_go_t::kReduced(now.reduced) |
+                                       places::line_go_t::kMoReturn(now.returns));
     m.rise_i = now.rise;
     m.biss_c_i = now.biss_c;
     m.final_rise_i = now.last;
     m.ma_clocks_i = now.clocks;
-    // biss_pkg::offer_t: any, last, slave, word.
-    m.offer_i = std::uint64_t{at + 1 >= slots.size()} << 42;
+    using namespace places::offer_t;
+    m.offer_i = kLast(at + 1 >= slots.size());
     if (!slots.empty()) {
-      m.offer_i |=
-          std::uint64_t{1} << 43 | std::uint64_t{slots[at].channel} << 39 | slots[at].word.port();
+      m.offer_i |= kAny(1) | kSlave(slots[at].channel) | kWord(slots[at].word.port());
     }
   }
 };

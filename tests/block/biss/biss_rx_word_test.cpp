@@ -10,31 +10,33 @@
 #include <string>
 
 #include "Vbiss_rx_word.h"
+#include "places.hpp"
 #include "tests/block/biss/frame_bench.hpp"
 #include "tests/block/biss/word.hpp"
 #include "tests/support/model_context.hpp"
 
 namespace {
 
+namespace at = mb4test::places::biss_pkg;
+
 using mb4test::bits_of;
 using mb4test::crc_of;
 using mb4test::kPolynomials;
 using mb4test::Word;
 
-// The fields of biss_pkg::rx_t.
 struct Rx {
   explicit Rx(unsigned port)
-      : slave(port >> 16 & 7),
-        wr_en((port >> 15 & 1) != 0),
-        wr_byte(port >> 12 & 7),
-        wr_data(port >> 4 & 0xFF),
-        first((port >> 3 & 1) != 0),
-        open((port >> 2 & 1) != 0),
-        done((port >> 1 & 1) != 0),
-        ok((port & 1) != 0) {}
-  unsigned slave;
+      : slave(at::rx_t::kSlave.of(port)),
+        wr_en(at::rx_t::kWrEn.of(port) != 0),
+        wr_byte(at::rx_t::kWrByte.of(port)),
+        wr_data(at::rx_t::kWrData.of(port)),
+        first(at::rx_t::kFirst.of(port) != 0),
+        open(at::rx_t::kOpen.of(port) != 0),
+        done(at::rx_t::kDone.of(port) != 0),
+        ok(at::rx_t::kOk.of(port) != 0) {}
+  std::uint64_t slave;
   bool wr_en;
-  unsigned wr_byte, wr_data;
+  std::uint64_t wr_byte, wr_data;
   bool first, open, done, ok;
 };
 
@@ -78,7 +80,7 @@ TEST(RxWordBlock, RandomWords_BytesFlagsAndCrcAreThoseOfTheLine) {
       }
     }
     const unsigned slave = random.below(8);
-    m.offer_i = std::uint64_t{slave} << 39 | word.port();
+    m.offer_i = at::offer_t::kSlave(slave) | at::offer_t::kWord(word.port());
     m.run_i = m.load_i = 1;
     block.clock();
     m.load_i = 0;

@@ -9,9 +9,12 @@
 #include <string>
 
 #include "Vbiss_sl_sampler.h"
+#include "places.hpp"
 #include "tests/support/model_context.hpp"
 
 namespace {
+
+namespace at = mb4test::places::biss_pkg;
 
 using mb4test::Block;
 
@@ -55,9 +58,8 @@ TEST(SamplerBlock, DelayOfKQuarters_CountsKPlusOneAndTakesBitsMidway) {
           const int b = (half & 1U) != 0 ? t + 1 : t;
           const bool point_b = is_point(b) && (b / h) % 2 == 1;
           const bool level_ma = t >= 0 && (t / (2 * h)) % 2 == 0;
-          // biss_pkg::sample_t: a, b, b_neg.
-          m.sample_i =
-              static_cast<std::uint8_t>((point_a ? 4 : 0) | (point_b ? 2 : 0) | (half & 1U));
+          m.sample_i = static_cast<std::uint8_t>(
+              at::sample_t::kA(point_a) | at::sample_t::kB(point_b) | at::sample_t::kBNeg(half));
           m.sample_half_i = level_ma ? 1 : 0;
         };
         // The flags of biss_frame: armed from rising edge 2 on, for point b one clock early.

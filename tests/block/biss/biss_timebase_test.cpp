@@ -10,9 +10,12 @@
 
 #include "Vbiss_timebase.h"
 #include "Vbiss_timebase_wide.h"
+#include "places.hpp"
 #include "tests/support/model_context.hpp"
 
 namespace {
+
+namespace at = mb4test::places::biss_pkg;
 
 using mb4test::Block;
 
@@ -40,9 +43,11 @@ void expect_half(unsigned half, std::uint8_t last, std::uint8_t tens) {
       EXPECT_EQ(m.half_next_o, ticks % 2) << "the first half period is high";
       ++ticks;
     }
-    // biss_pkg::sample_t: a, b, b_neg.
-    if ((m.sample_o & 4) != 0) points.push_back(2 * i);
-    if ((m.sample_o & 2) != 0) points.push_back(2 * i + (m.sample_o & 1U));
+    using namespace at::sample_t;
+    if (kA.of(m.sample_o) != 0) points.push_back(2 * i);
+    if (kB.of(m.sample_o) != 0) {
+      points.push_back(2 * i + static_cast<unsigned>(kBNeg.of(m.sample_o)));
+    }
     base.clock();
   }
   EXPECT_EQ(ticks, (8 * half + 2) / half) << half;

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "places.hpp"
 #include "tests/block/biss/frame_bench.hpp"
 
 namespace mb4test {
@@ -28,11 +29,12 @@ struct ControlAccess {
   unsigned ids = 0, cmd = 0;  // IDS0 is bit 7
   bool tested = false;
 
-  // biss_pkg::access_t, the last field lowest.
+  // A command has its number and whether it is answered in the lowest bits.
   std::uint32_t port() const {
     if (command) return cmd << 1 | (tested ? 1U : 0U);
-    return 1U << 17 | (write ? 1U : 0U) << 16 | address << 9 |
-           static_cast<std::uint32_t>(bytes.size() - 1) << 3 | id;
+    namespace at = places::biss_pkg::access_t;
+    return static_cast<std::uint32_t>(at::kCts(1) | at::kWrite(write) | at::kAddr(address) |
+                                      at::kByteLast(bytes.size() - 1) | at::kId(id));
   }
 };
 

@@ -8,6 +8,8 @@
 #include <bit>
 #include <cstdint>
 
+#include "places.hpp"
+
 namespace mb4test {
 
 // The polynomials of Table 14; 0: no CRC.
@@ -22,20 +24,12 @@ struct Word {
   unsigned crc_bits() const {
     return polynomial == 0 ? 0 : static_cast<unsigned>(std::bit_width(polynomial)) - 1;
   }
-  // The fields of biss_pkg::word_t, the highest first.
   std::uint64_t port() const {
+    namespace at = places::biss_pkg::word_t;
     const unsigned crc = crc_bits();
-    std::uint64_t value = data_bits - 1;
-    const auto add = [&](std::uint64_t field, unsigned bits) { value = value << bits | field; };
-    add(crc != 0, 1);
-    add(crc == 0 ? 0 : crc - 1, 4);
-    add(polynomial & 0xFF, 8);
-    add(start, 16);
-    add(store, 1);
-    add(gray, 1);
-    add(actuator, 1);
-    add(stop, 1);
-    return value;
+    return at::kDataLast(data_bits - 1) | at::kCrcOn(crc != 0) |
+           at::kCrcLast(crc == 0 ? 0 : crc - 1) | at::kCrcPoly(polynomial) | at::kCrcStart(start) |
+           at::kCrcStore(store) | at::kGray(gray) | at::kActuator(actuator) | at::kStop(stop);
   }
 };
 

@@ -8,9 +8,12 @@
 #include <deque>
 
 #include "Vclb_fifo.h"
+#include "places.hpp"
 #include "tests/support/model_context.hpp"
 
 namespace {
+
+namespace fifo_t = mb4test::places::clb_pkg::fifo_t;
 
 class ClbFifo : public testing::Test {
  protected:
@@ -29,7 +32,7 @@ class ClbFifo : public testing::Test {
     clock();
   }
   unsigned pop() {
-    const unsigned word = shown();
+    const auto word = static_cast<unsigned>(shown());
     m.pop_i = 1;
     clock();
     m.pop_i = 0;
@@ -47,11 +50,10 @@ class ClbFifo : public testing::Test {
     clock();
     port = 0;
   }
-  // clb_pkg::fifo_t.
-  unsigned shown() const { return m.fifo_o & 0xFFFFU; }
-  unsigned level() const { return m.fifo_o >> 16U & 0x1FU; }
-  bool raised() const { return (m.fifo_o >> 21U & 1U) != 0; }
-  bool overflow() const { return (m.fifo_o >> 22U & 1U) != 0; }
+  std::uint64_t shown() const { return fifo_t::kWord.of(m.fifo_o); }
+  std::uint64_t level() const { return fifo_t::kLevel.of(m.fifo_o); }
+  bool raised() const { return fifo_t::kRaised.of(m.fifo_o) != 0; }
+  bool overflow() const { return fifo_t::kOverflow.of(m.fifo_o) != 0; }
 
   unsigned lost = 0;
   mb4test::Dice dice;

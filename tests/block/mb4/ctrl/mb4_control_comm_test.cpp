@@ -12,12 +12,16 @@
 
 #include "Vmb4_control_comm.h"
 #include "mb4_regs.hpp"
+#include "places.hpp"
 #include "tests/block/biss/control_script.hpp"
 #include "tests/support/model_context.hpp"
 
 namespace {
 
 namespace reg = mb4::regs;
+namespace places = mb4test::places;
+namespace kind_t = places::mb4_pkg::kind_t;
+namespace go_t = places::biss_pkg::line_go_t;
 using mb4test::ControlAccess;
 using mb4test::ControlScript;
 
@@ -37,50 +41,50 @@ class ControlCommBlock : public testing::Test {
     m.quirks_i = m.instr_i = m.rdata_i = m.post_busy_i = 0;
     m.begin_i = m.register_want_i = m.void_i = m.refused_i = m.clear_i = m.init_clear_i = 0;
     m.go_i = m.start_use_i = m.frame_done_i = m.automatic_i = 0;
-    m.status_i = 0x231;  // idle, SL = 1
+    m.status_i = line_status(0, 0, 0) | line_status(1, 0, 0);
     m.live_i = m.tick_i = 1;
     lines(kBissC, kBissC);
     block.reset();
   }
-  // mb4_pkg::cfg_t.
-  void set(unsigned lsb, unsigned width, unsigned value) {
-    for (unsigned i = 0; i < width; ++i) {
-      std::uint32_t& word = m.cfg_i[(lsb + i) / 32];
-      const std::uint32_t mask = 1U << (lsb + i) % 32;
-      word = (value >> i & 1U) != 0 ? word | mask : word & ~mask;
-    }
+  // A line that is idle, with SL = 1.
+  static std::uint16_t line_status(unsigned line, unsigned cds, unsigned cdm) {
+    using namespace places::biss_pkg::line_status_t;
+    const std::uint64_t status = kIdle(1) | kCds(cds) | kCdm(cdm) | kSl(1);
+    return static_cast<std::uint16_t>(status << kAllBits * line);
   }
   void lines(unsigned cfgch1, unsigned cfgch2) {
     m.protocol_i = static_cast<std::uint8_t>(cfgch2 << 2 | cfgch1);
   }
   void set_access(const ControlAccess& made, unsigned chsel, bool biss_c = true) {
+    using namespace places::mb4_pkg::cfg_t;
+    namespace from = places::biss_pkg::access_t;
     const std::uint32_t port = made.port();
-    set(49, 3, port & 7U);
-    set(52, 1, biss_c);
-    set(53, 1, port >> 17 & 1U);
-    set(54, 6, port >> 3 & 0x3FU);
-    set(60, 7, port >> 9 & 0x7FU);
-    set(67, 1, port >> 16 & 1U);
-    set(68, 2, chsel);
+    kAccessSlaveid.set(m.cfg_i, from::kId.of(port));
+    kAccessRegvers.set(m.cfg_i, biss_c);
+    kAccessCts.set(m.cfg_i, from::kCts.of(port));
+    kAccessRegnum.set(m.cfg_i, from::kByteLast.of(port));
+    kAccessRegadr.set(m.cfg_i, from::kAddr.of(port));
+    kAccessWnr.set(m.cfg_i, from::kWrite.of(port));
+    kAccessChsel.set(m.cfg_i, chsel);
   }
-  // mb4_pkg::kind_t.
-  unsigned kind(unsigned lsb) const { return m.kind_o >> lsb & 3U; }
-  unsigned select() const { return kind(8); }
-  unsigned manual() const { return kind(10); }
+  unsigned select() const { return static_cast<unsigned>(kind_t::kSelect.of(m.kind_o)); }
+  unsigned manual() const { return static_cast<unsigned>(kind_t::kManual.of(m.kind_o)); }
 
   void clock() {
     m.eval();
-    // mb4_pkg: rdata_cmd_t, access_event_t.
-    const unsigned address = m.rdata_o & 0x3FU;
-    const bool read = (m.rdata_o & 0x40U) != 0;
-    if ((m.rdata_o >> 21 & 1U) != 0) {
-      written.push_back({m.rdata_o >> 15 & 0x3FU, m.rdata_o >> 7 & 0xFFU});
+    namespace rdata_t = places::mb4_pkg::rdata_cmd_t;
+    namespace event_t = places::mb4_pkg::access_event_t;
+    const std::uint64_t address = rdata_t::kRdAddr.of(m.rdata_o);
+    const bool read = rdata_t::kRdEn.of(m.rdata_o) != 0;
+    if (rdata_t::kWrEn.of(m.rdata_o) != 0) {
+      written.push_back({static_cast<unsigned>(rdata_t::kWrAddr.of(m.rdata_o)),
+                         static_cast<unsigned>(rdata_t::kWrData.of(m.rdata_o))});
     }
-    begins += m.event_o >> 3 & 1U;
-    if ((m.event_o & 4U) != 0) {
+    begins += static_cast<unsigned>(event_t::kBegins.of(m.event_o));
+    if (event_t::kEnds.of(m.event_o) != 0) {
       ++ends;
-      reg_error = (m.event_o & 2U) != 0;
-      delay_error = (m.event_o & 1U) != 0;
+      reg_error = event_t::kRegError.of(m.event_o) != 0;
+      delay_error = event_t::kDelayError.of(m.event_o) != 0;
     }
     ags_errors += m.ags_error_o;
     block.clock();
@@ -90,14 +94,14 @@ class ControlCommBlock : public testing::Test {
   void clocks(unsigned count) {
     for (unsigned i = 0; i < count; ++i) clock();
   }
-  void start(unsigned flags = 0) {
-    m.go_i = static_cast<std::uint8_t>(0x20U | flags);
+  void start(std::uint64_t flags = 0) {
+    m.go_i = static_cast<std::uint8_t>(go_t::kStart(1) | flags);
     clock();
     m.go_i = 0;
   }
   // A frame of both lines; the CDM that each of them sends.
   unsigned frame(unsigned cds, unsigned length = 3) {
-    m.go_i = 0x20;
+    m.go_i = static_cast<std::uint8_t>(go_t::kStart(1));
     m.eval();
     const unsigned cdm = ((cds & m.cdm1_o) | (~cds & m.cdm0_o)) & 3U;
     start();
@@ -105,8 +109,7 @@ class ControlCommBlock : public testing::Test {
     clocks(length);
     m.status_i = 0;
     for (unsigned line = 0; line < 2; ++line) {
-      const unsigned status = 0x11U | (cds >> line & 1U) << 2 | (cdm >> line & 1U) << 1;
-      m.status_i |= static_cast<std::uint16_t>(status << 5 * line);
+      m.status_i |= line_status(line, cds >> line, cdm >> line);
     }
     m.frame_done_i = 1;
     clock();
@@ -130,14 +133,14 @@ class ControlCommBlock : public testing::Test {
   }
   // 14 zeros, then the frames of the script up to `last`.
   void play(unsigned last = ~0U) {
-    for (unsigned i = 0; i < 14 && (m.state_o & 0x40U) == 0; ++i) ASSERT_EQ(frame(0), 0U);
-    ASSERT_NE(m.state_o & 0x40U, 0U) << "CDMTIMEOUT";
+    for (unsigned i = 0; i < 14 && !cdm_timeout(); ++i) ASSERT_EQ(frame(0), 0U);
+    ASSERT_TRUE(cdm_timeout());
     const unsigned lines_of_it = select();
     for (unsigned at = 0; at < script.cdm.size() && at < last && ends == 0; ++at) {
       const unsigned cds = script.cds[at] == '1' ? lines_of_it : 0U;
       const unsigned cdm = frame(cds | (random.below(4) & ~lines_of_it));
       ASSERT_EQ(cdm, script.cdm[at] == '1' ? lines_of_it : 0U) << "frame " << at;
-      EXPECT_EQ(m.state_o & 0x40U, 0U) << "CDMTIMEOUT within a control frame, " << at;
+      EXPECT_FALSE(cdm_timeout()) << "within a control frame, " << at;
       if (disturb) disturb();
     }
   }
@@ -147,7 +150,12 @@ class ControlCommBlock : public testing::Test {
     clocks(4);
     for (int i = 0; i < 14; ++i) frame(0);
   }
-  unsigned good_bytes() const { return m.state_o & 0x3FU; }
+  bool cdm_timeout() const {
+    return places::mb4_pkg::access_state_t::kCdmTimeout.of(m.state_o) != 0;
+  }
+  unsigned good_bytes() const {
+    return static_cast<unsigned>(places::mb4_pkg::access_state_t::kGoodBytes.of(m.state_o));
+  }
   // An access that succeeds, and its end.
   void write_two_bytes() {
     set_access(two_bytes, 1);
@@ -232,7 +240,10 @@ TEST_F(ControlCommBlock, Commands_RunOnBothLinesAndTakeTheQuirk) {
     made.tested = round % 2 != 0;
     set_access(made, 3);
     m.quirks_i = round / 2 % 2;  // decision 5
-    if (m.quirks_i != 0) set(49, 1, made.tested ? 0 : 1);
+    if (m.quirks_i != 0) {
+      mb4test::Place{places::mb4_pkg::cfg_t::kAccessSlaveid.lsb, 1}.set(m.cfg_i,
+                                                                        made.tested ? 0 : 1);
+    }
     clocks(2);
     begin(made);
     ASSERT_EQ(select(), 3U);
@@ -260,7 +271,7 @@ TEST_F(ControlCommBlock, FramesWithoutControl_SendTheCdmOfInstr) {
 
 // Page 35, Table 64, decision 20: CDMTIMEOUT after 14 zeros on the lines in use, until a 1 or INIT.
 TEST_F(ControlCommBlock, FourteenZeros_AreCdmtimeout) {
-  const auto reached = [&] { return (m.state_o & 0x40U) != 0; };
+  const auto reached = [&] { return cdm_timeout(); };
   for (int i = 0; i < 14; ++i) {
     EXPECT_FALSE(reached()) << i;
     frame(0);
@@ -409,11 +420,13 @@ TEST_F(ControlCommBlock, BissBWithoutHandOver_IsAnAgsError) {
   set_access(two_bytes, 1, false);
   m.instr_i = reg::INSTR::of(reg::Instr::kControl) >> reg::INSTR::kLsb;
   clocks(3);
-  ASSERT_EQ(m.kind_o & 7U, 2U) << "a BiSS B register access";
+  ASSERT_EQ(kind_t::kIsControl.of(m.kind_o), 0U);
+  ASSERT_EQ(kind_t::kIsRegister.of(m.kind_o), 1U) << "a BiSS B register access";
+  ASSERT_EQ(kind_t::kIsVoid.of(m.kind_o), 0U);
   ends = ags_errors = 0;
   m.start_use_i = 1;
   m.register_want_i = 1;
-  start(0x08);
+  start(go_t::kRegisterAccess(1));
   m.register_want_i = 0;
   EXPECT_EQ(good_bytes(), 0U);
   unsigned ticks = 0;

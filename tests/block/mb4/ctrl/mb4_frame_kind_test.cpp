@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "Vmb4_frame_kind.h"
+#include "places.hpp"
 #include "tests/support/model_context.hpp"
 
 namespace {
@@ -16,9 +17,9 @@ TEST(FrameKindBlock, EverySetting_LinesAndKindAreThoseOfTheTables) {
   mb4test::Block<Vmb4_frame_kind> block;
   auto& m = block.model;
   mb4test::Dice random;
-  const auto bits = [&](unsigned lsb, unsigned width) {
-    return (static_cast<unsigned>(m.kind_o) >> lsb) & ((1U << width) - 1);
-  };
+  namespace access_t = mb4test::places::mb4_pkg::access_t;
+  using namespace mb4test::places::mb4_pkg::kind_t;
+  const auto bits = [&](mb4test::Place place) { return place.of(m.kind_o); };
   for (unsigned setting = 0; setting < 2048; ++setting) {
     const unsigned instr = setting & 7;
     const unsigned chsel = (setting >> 3) & 3;
@@ -26,9 +27,11 @@ TEST(FrameKindBlock, EverySetting_LinesAndKindAreThoseOfTheTables) {
     const bool regvers = (setting >> 6) & 1;
     const unsigned cfgch[2] = {(setting >> 7) & 3, (setting >> 9) & 3};
     m.instr_i = static_cast<std::uint8_t>(instr);
-    // mb4_pkg::access_t; the fields that say nothing of the kind are free.
-    m.access_i = chsel << 19 | random.below(1U << 14) << 5 | (cts ? 1U << 4 : 0) |
-                 (regvers ? 1U << 3 : 0) | random.below(8);
+    // The fields that say nothing of the kind are free.
+    m.access_i = static_cast<std::uint32_t>(
+        access_t::kChsel(chsel) | access_t::kWnr(random.below(2)) |
+        access_t::kRegadr(random.below(128)) | access_t::kRegnum(random.below(64)) |
+        access_t::kCts(cts) | access_t::kRegvers(regvers) | access_t::kSlaveid(random.below(8)));
     m.protocol_i = static_cast<std::uint8_t>(cfgch[1] << 2 | cfgch[0]);
     m.eval();
 
@@ -53,16 +56,16 @@ TEST(FrameKindBlock, EverySetting_LinesAndKindAreThoseOfTheTables) {
     SCOPED_TRACE(testing::Message() << "INSTR " << instr << " CHSEL " << chsel << " CTS " << cts
                                     << " REGVERS " << regvers << " CFGCH " << cfgch[0] << cfgch[1]);
     const bool is_register = access && can_run && !regvers;
-    ASSERT_EQ(bits(8, 2), select) << "lines of the access";
-    ASSERT_EQ(bits(10, 2), named);
-    ASSERT_EQ(bits(12, 2), ssi);
-    ASSERT_EQ(bits(14, 2), in_use);
-    ASSERT_EQ(bits(6, 2), is_register ? select : in_use);
-    ASSERT_EQ(bits(4, 2), in_use & ~ssi) << "INIT";
-    ASSERT_EQ(bits(3, 1), plain || (access && can_run)) << "frame";
-    ASSERT_EQ(bits(2, 1), access && can_run && regvers) << "control communication";
-    ASSERT_EQ(bits(1, 1), is_register) << "BiSS B register access";
-    ASSERT_EQ(bits(0, 1), access && !can_run) << "void";
+    ASSERT_EQ(bits(kSelect), select) << "lines of the access";
+    ASSERT_EQ(bits(kManual), named);
+    ASSERT_EQ(bits(kSsi), ssi);
+    ASSERT_EQ(bits(kInUse), in_use);
+    ASSERT_EQ(bits(kFrameUse), is_register ? select : in_use);
+    ASSERT_EQ(bits(kInitUse), in_use & ~ssi) << "INIT";
+    ASSERT_EQ(bits(kIsFrame), plain || (access && can_run)) << "frame";
+    ASSERT_EQ(bits(kIsControl), access && can_run && regvers) << "control communication";
+    ASSERT_EQ(bits(kIsRegister), is_register) << "BiSS B register access";
+    ASSERT_EQ(bits(kIsVoid), access && !can_run) << "void";
   }
 }
 

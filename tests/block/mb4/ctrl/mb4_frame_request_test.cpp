@@ -8,9 +8,12 @@
 #include <vector>
 
 #include "Vmb4_frame_request.h"
+#include "places.hpp"
 #include "tests/support/model_context.hpp"
 
 namespace {
+
+namespace at = mb4test::places::mb4_pkg::request_t;
 
 class Requests : public mb4test::Block<Vmb4_frame_request> {
  public:
@@ -21,11 +24,10 @@ class Requests : public mb4test::Block<Vmb4_frame_request> {
     model.freqags_i = static_cast<std::uint8_t>(freqags);
     reset();
   }
-  // mb4_pkg::request_t.
-  bool due() const { return (model.request_o & 8) != 0; }
-  bool asks() const { return (model.request_o & 4) != 0; }
-  bool agsmin() const { return (model.request_o & 2) != 0; }
-  bool infinite() const { return (model.request_o & 1) != 0; }
+  bool due() const { return at::kDue.of(model.request_o) != 0; }
+  bool asks() const { return at::kAsks.of(model.request_o) != 0; }
+  bool agsmin() const { return at::kAgsmin.of(model.request_o) != 0; }
+  bool infinite() const { return at::kInfinite.of(model.request_o) != 0; }
   // The clocks, counted from 1, that end with a request; each request is taken in the next clock.
   std::vector<unsigned> run(unsigned clocks) {
     std::vector<unsigned> times;

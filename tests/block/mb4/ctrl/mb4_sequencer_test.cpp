@@ -12,6 +12,7 @@
 
 #include "Vmb4_sequencer.h"
 #include "mb4_regs.hpp"
+#include "places.hpp"
 #include "tests/support/model_context.hpp"
 
 namespace {
@@ -23,8 +24,14 @@ constexpr unsigned kCdm0 = reg::INSTR::of(reg::Instr::kCdm0);
 constexpr unsigned kCdm1 = reg::INSTR::of(reg::Instr::kCdm1);
 constexpr unsigned kControl = reg::INSTR::of(reg::Instr::kControl);
 constexpr unsigned kCut = 1100;  // clocks after which INIT waits no more, and some
-// Places in mb4_pkg: request_t, flags.
-constexpr unsigned kDue = 8 | 4, kAgsmin = 2, kInfinite = 1;
+namespace pkg = mb4test::places::mb4_pkg;
+namespace go_t = mb4test::places::biss_pkg::line_go_t;
+namespace event_t = mb4test::places::biss_pkg::line_event_t;
+namespace status_t = mb4test::places::biss_pkg::line_status_t;
+
+constexpr auto kDue = static_cast<std::uint8_t>(pkg::request_t::kDue(1) | pkg::request_t::kAsks(1));
+constexpr auto kAgsmin = static_cast<std::uint8_t>(pkg::request_t::kAgsmin(1));
+constexpr auto kInfinite = static_cast<std::uint8_t>(pkg::request_t::kInfinite(1));
 constexpr unsigned kAgserrOnWrite = 2, kAgserrOnHoldbank = 4, kAgsCleared = 8;  // quirks
 
 class SequencerBlock : public testing::Test {
@@ -34,37 +41,44 @@ class SequencerBlock : public testing::Test {
     m.word_bad_i = m.mem_i = 0;
     m.control_active_i = m.control_start_i = m.control_end_i = m.control_stalled_i = m.stale_i = 0;
     m.regvers_i = m.tick_i = 1;
-    m.status_i = 0x231;
+    m.status_i = 0;
+    for (unsigned line = 0; line < 2; ++line) m.status_i |= status(line, true, false, true);
     block.reset();
     clocks(kCut);  // INIT waits after a reset (decision 46)
     forget();
   }
+  static std::uint16_t status(unsigned line, bool idle, bool timeout, bool sl) {
+    using namespace status_t;
+    return static_cast<std::uint16_t>((kIdle(idle) | kTimeout(timeout) | kSl(sl))
+                                      << kAllBits * line);
+  }
   void clock() {
     m.eval();
-    // mb4_pkg::kind_t: both lines in use.
-    const unsigned instr = m.instr_o >> 1 & 7U;
+    const std::uint64_t instr = pkg::instr_t::kInstr.of(m.instr_o);
     const bool control = instr == 4 || instr == 7;
-    m.kind_i = static_cast<std::uint16_t>(
-        3U << 14 | 3U << 6 | init_use << 4 | (instr != 0 && (!control || can_control) ? 8U : 0U) |
-        (control && can_control ? 4U : 0U) | (control && !can_control ? 1U : 0U));
+    // Both lines are in use.
+    using namespace pkg::kind_t;
+    m.kind_i = static_cast<std::uint16_t>(kInUse(3) | kFrameUse(3) | kInitUse(init_use) |
+                                          kIsFrame(instr != 0 && (!control || can_control)) |
+                                          kIsControl(control && can_control) |
+                                          kIsVoid(control && !can_control));
     m.status_i = m.event_i = 0;
     for (unsigned line = 0; line < 2; ++line) {
-      // biss_pkg: line_status_t, line_event_t.
       const bool idle = left[line] == 0;
       const bool timeout = left[line] > 0 && left[line] <= timeout_clocks;
       const bool high = (low_lines >> line & 1U) == 0;
-      m.status_i |= static_cast<std::uint16_t>(
-          ((idle ? 16U : 0U) | (timeout ? 8U : 0U) | (high && !timeout ? 1U : 0U)) << 5 * line);
+      m.status_i |= status(line, idle, timeout, high && !timeout);
       const bool over = left[line] == timeout_clocks + 1;
-      const unsigned event = !over ? 0U : !in_init ? 4U : init_fails ? 1U : 2U;
-      m.event_i |= static_cast<std::uint8_t>(event << 3 * line);
+      const std::uint64_t event = event_t::kLineEnd(over && !in_init) |
+                                  event_t::kInitDone(over && in_init && !init_fails) |
+                                  event_t::kInitFail(over && in_init && init_fails);
+      m.event_i |= static_cast<std::uint8_t>(event << event_t::kAllBits * line);
       if (left[line] > 0 && !(stuck && timeout)) --left[line];
     }
     m.eval();
-    // biss_pkg::line_go_t, mb4_pkg::frame_flags_t, bank_cmd_t.
-    const bool start = (m.go_o & 32U) != 0;
+    const bool start = go_t::kStart.of(m.go_o) != 0;
     if (start) {
-      in_init = (m.go_o & 16U) != 0;
+      in_init = go_t::kInit.of(m.go_o) != 0;
       (in_init ? inits : starts).push_back(now);
       EXPECT_EQ(m.start_use_o, in_init ? init_use : 3U);
       // Line 2 takes longer.
@@ -72,17 +86,17 @@ class SequencerBlock : public testing::Test {
         if ((m.start_use_o >> line & 1U) != 0) left[line] = timeout_clocks + 20 + 10 * line;
       }
     }
-    if ((m.go_o & 1U) != 0) {
+    if (go_t::kStop.of(m.go_o) != 0) {
       stops.push_back(now);
       left = {};
     }
-    if ((m.flags_o & 8U) != 0) results.push_back(now);
-    if ((m.bank_o & 16U) != 0) ends.push_back(now);
-    ags_errors += m.flags_o >> 1 & 1U;
-    bank_fails += m.flags_o & 1U;
-    clears += m.flags_o >> 4 & 1U;
+    if (pkg::frame_flags_t::kScdEn.of(m.flags_o) != 0) results.push_back(now);
+    if (pkg::bank_cmd_t::kFrameEnd.of(m.bank_o) != 0) ends.push_back(now);
+    ags_errors += pkg::frame_flags_t::kAgsError.of(m.flags_o) != 0 ? 1U : 0U;
+    bank_fails += pkg::frame_flags_t::kBankFail.of(m.flags_o) != 0 ? 1U : 0U;
+    clears += pkg::frame_flags_t::kClear.of(m.flags_o) != 0 ? 1U : 0U;
     voids += m.void_o;
-    swaps += m.bank_o >> 1 & 1U;
+    swaps += pkg::bank_cmd_t::kSwap.of(m.bank_o) != 0 ? 1U : 0U;
     refusals += m.refused_o;
     block.clock();
     m.eval();
@@ -102,13 +116,14 @@ class SequencerBlock : public testing::Test {
   // A byte to 0xF4; five clocks, after which the core has taken it.
   void write(unsigned byte) {
     count = (count << 1 & 2U) | (~count >> 1 & 1U);
-    m.instr_i = static_cast<std::uint16_t>(count << 8 | byte);
+    m.instr_i = static_cast<std::uint16_t>(pkg::instr_host_t::kCount(count) |
+                                           pkg::instr_host_t::kWritten(byte));
     clocks(5);
   }
-  unsigned held() const { return m.instr_o & 0xFFU; }
+  unsigned held() const { return static_cast<unsigned>(pkg::instr_core_t::kHeld.of(m.instr_o)); }
   bool busy() {
     m.eval();
-    return (m.flags_o & 32U) != 0;
+    return pkg::frame_flags_t::kBusy.of(m.flags_o) != 0;
   }
   void request() {
     m.request_i |= kDue;
@@ -341,7 +356,7 @@ TEST_F(SequencerBlock, Holdbank_LeavesAFrameOutOnlyWithTheQuirk) {
   write(kHoldbank);
   EXPECT_EQ(swaps, 2U);
   EXPECT_EQ(held(), kHoldbank);
-  m.mem_i = 1;  // mb4_pkg::mem_state_t: pending
+  m.mem_i = static_cast<std::uint8_t>(pkg::mem_state_t::kPending(1));
   for (const bool quirk : {false, true}) {
     m.quirks_i = quirk ? kAgserrOnHoldbank : 0;
     forget();

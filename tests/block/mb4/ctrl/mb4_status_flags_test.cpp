@@ -8,6 +8,7 @@
 #include <initializer_list>
 
 #include "Vmb4_status_flags.h"
+#include "places.hpp"
 #include "tests/support/model_context.hpp"
 
 namespace {
@@ -17,7 +18,9 @@ struct Flags {
   bool swbank_fail = false;
 };
 
-// The events of one clock, by the fields of mb4_pkg::frame_flags_t, bank_event_t, access_event_t.
+namespace flags_t = mb4test::places::mb4_pkg::flags_t;
+
+// The events of one clock.
 struct Events {
   bool busy = false, clear = false, scd_en = false, scd_bad = false, ags_error = false;
   bool bank_fail = false, bank_swapped = false, bank_lost = false;
@@ -32,36 +35,36 @@ class Status : public mb4test::Block<Vmb4_status_flags> {
   }
   // One clock with the events of `now`, which are over then.
   void pulse() {
-    model.frame_i =
-        port({now.busy, now.clear, now.scd_en, now.scd_bad, now.ags_error, now.bank_fail});
-    model.bank_i = port({now.bank_swapped, now.bank_lost});
-    model.access_i = port({now.reg_begin, now.reg_end, now.reg_error, now.delay_error});
+    namespace at = mb4test::places::mb4_pkg;
+    namespace frame_t = at::frame_flags_t;
+    namespace access_t = at::access_event_t;
+    model.frame_i = static_cast<std::uint8_t>(
+        frame_t::kBusy(now.busy) | frame_t::kClear(now.clear) | frame_t::kScdEn(now.scd_en) |
+        frame_t::kScdBad(now.scd_bad) | frame_t::kAgsError(now.ags_error) |
+        frame_t::kBankFail(now.bank_fail));
+    model.bank_i = static_cast<std::uint8_t>(at::bank_event_t::kSwapped(now.bank_swapped) |
+                                             at::bank_event_t::kLost(now.bank_lost));
+    model.access_i = static_cast<std::uint8_t>(
+        access_t::kBegins(now.reg_begin) | access_t::kEnds(now.reg_end) |
+        access_t::kRegError(now.reg_error) | access_t::kDelayError(now.delay_error));
     now = {};
     clock();
   }
-  // mb4_pkg::flags_t.
-  bool flag(unsigned bit) const { return (model.flags_o >> bit & 1) != 0; }
-  bool eot() const { return flag(8); }
+  bool flag(mb4test::Place place) const { return place.of(model.flags_o) != 0; }
+  bool eot() const { return flag(flags_t::kEot); }
   void expect(const Flags& flags) {
-    EXPECT_EQ(flag(13), flags.n_agserr);
-    EXPECT_EQ(flag(12), flags.n_delayerr);
-    EXPECT_EQ(flag(11), flags.n_scderr);
-    EXPECT_EQ(flag(10), flags.n_regerr);
-    EXPECT_EQ(flag(9), flags.regend);
-    EXPECT_EQ(flag(7), flags.swbank_fail);
+    EXPECT_EQ(flag(flags_t::kNAgserr), flags.n_agserr);
+    EXPECT_EQ(flag(flags_t::kNDelayerr), flags.n_delayerr);
+    EXPECT_EQ(flag(flags_t::kNScderr), flags.n_scderr);
+    EXPECT_EQ(flag(flags_t::kNRegerr), flags.n_regerr);
+    EXPECT_EQ(flag(flags_t::kRegend), flags.regend);
+    EXPECT_EQ(flag(flags_t::kSwbankFail), flags.swbank_fail);
     // Table 60: pin NER is low if any of the four is indicated.
     EXPECT_EQ(model.ner_low_o,
               !(flags.n_scderr && flags.n_agserr && flags.n_regerr && flags.n_delayerr));
   }
 
   Events now;
-
- private:
-  static std::uint8_t port(std::initializer_list<bool> fields) {
-    unsigned value = 0;
-    for (const bool field : fields) value = value << 1 | (field ? 1U : 0U);
-    return static_cast<std::uint8_t>(value);
-  }
 };
 
 TEST(StatusBlock, Reset_NoErrorAndNothingEnded) {
@@ -203,13 +206,15 @@ TEST(StatusBlock, AccessHasEnded_BytesAreToldAfterAnErrorOnly) {
   for (const bool error : {false, true}) {
     for (const bool delay : {false, true}) {
       Status status;
-      status.model.access_state_i = 1U << 6 | 41;
+      namespace state_t = mb4test::places::mb4_pkg::access_state_t;
+      status.model.access_state_i =
+          static_cast<std::uint8_t>(state_t::kCdmTimeout(1) | state_t::kGoodBytes(41));
       status.now.reg_end = true;
       status.now.reg_error = error;
       status.now.delay_error = delay;
       status.pulse();
-      EXPECT_TRUE(status.flag(6)) << "CDMTIMEOUT";
-      EXPECT_EQ(status.model.flags_o & 0x3F, error || delay ? 41 : 0);
+      EXPECT_TRUE(status.flag(flags_t::kCdmTimeout)) << "CDMTIMEOUT";
+      EXPECT_EQ(flags_t::kRegbytes.of(status.model.flags_o), error || delay ? 41U : 0U);
     }
   }
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "Vmb4_word_list.h"
+#include "places.hpp"
 #include "tests/support/model_context.hpp"
 
 namespace {
@@ -24,12 +25,11 @@ struct Channel {
     static constexpr unsigned kFull[] = {0, 0, 0, 0xB, 0x13, 0x25, 0x43, 0x89, 0x12F};
     return (crc_bits == 16 ? 0x190D9U : kFull[crc_bits]) >> 1 & 0x7F;
   }
-  // mb4_pkg::slave_cfg_t
   std::uint64_t port() const {
-    const std::uint64_t crc =
-        (crc_bits != 0 ? 1U << 11 : 0) | (crc_bits != 0 ? crc_bits - 1 : 0) << 7 | polynomial();
-    return std::uint64_t{crc_start} << 20 | crc << 8 | (gray_lstop ? 0x80U : 0) |
-           (enabled ? 0x40U : 0) | (data_bits - 1);
+    namespace at = mb4test::places::mb4_pkg::slave_cfg_t;
+    return at::kCrcStart(crc_start) | at::kCrcOn(crc_bits != 0) |
+           at::kCrcLast(crc_bits != 0 ? crc_bits - 1 : 0) | at::kCrcPoly(polynomial()) |
+           at::kGrayLstop(gray_lstop) | at::kEnscd(enabled) | at::kScdlen(data_bits - 1);
   }
 };
 
@@ -51,11 +51,11 @@ class WordList : public mb4test::Block<Vmb4_word_list> {
     model.start_i = model.next_i = 0;
     model.eval();
   }
-  unsigned field(unsigned lsb, unsigned width) const {
-    return static_cast<unsigned>(model.offer_o >> lsb & ((1U << width) - 1));
-  }
+  std::uint64_t field(mb4test::Place place) const { return place.of(model.offer_o); }
   std::array<Channel, 8> channels;
 };
+
+namespace offer_t = mb4test::places::biss_pkg::offer_t;
 
 TEST(WordListBlock, RandomConfigurations_WordsComeInOrderWithTheirLengths) {
   mb4test::Dice random;
@@ -98,26 +98,26 @@ TEST(WordListBlock, RandomConfigurations_WordsComeInOrderWithTheirLengths) {
     for (std::size_t i = 0; i < words.size(); ++i) {
       const Channel& c = list.channels[words[i]];
       const bool sends = c.actuator && !ssi;
-      ASSERT_EQ(list.field(43, 1), 1U) << "any";
-      ASSERT_EQ(list.field(42, 1), i + 1 == words.size()) << "last";
-      ASSERT_EQ(list.field(39, 3), words[i]) << "slave";
-      ASSERT_EQ(list.field(33, 6), c.data_bits - 1);
-      ASSERT_EQ(list.field(32, 1), c.crc_bits != 0);
-      ASSERT_EQ(list.field(28, 4), c.crc_bits == 0 ? 0 : c.crc_bits - 1);
+      ASSERT_EQ(list.field(offer_t::kAny), 1U) << "any";
+      ASSERT_EQ(list.field(offer_t::kLast), i + 1 == words.size()) << "last";
+      ASSERT_EQ(list.field(offer_t::kSlave), words[i]) << "slave";
+      ASSERT_EQ(list.field(offer_t::kWordDataLast), c.data_bits - 1);
+      ASSERT_EQ(list.field(offer_t::kWordCrcOn), c.crc_bits != 0);
+      ASSERT_EQ(list.field(offer_t::kWordCrcLast), c.crc_bits == 0 ? 0 : c.crc_bits - 1);
       if (c.crc_bits != 0) {
-        ASSERT_EQ(list.field(20, 8), c.polynomial() << 1 | 1U);
+        ASSERT_EQ(list.field(offer_t::kWordCrcPoly), c.polynomial() << 1 | 1U);
       }
-      ASSERT_EQ(list.field(4, 16), c.crc_start);
+      ASSERT_EQ(list.field(offer_t::kWordCrcStart), c.crc_start);
       // Page 26, Table 21: NOCRC = 0, and the data leave the top byte(s) free.
-      ASSERT_EQ(list.field(3, 1),
+      ASSERT_EQ(list.field(offer_t::kWordCrcStore),
                 c.crc_bits != 0 && !nocrc && c.data_bits <= (c.crc_bits == 16 ? 48U : 56U));
-      ASSERT_EQ(list.field(2, 1), ssi && c.gray_lstop) << "Gray";
-      ASSERT_EQ(list.field(1, 1), sends) << "actuator";
-      ASSERT_EQ(list.field(0, 1), sends && c.gray_lstop) << "stop bit";
+      ASSERT_EQ(list.field(offer_t::kWordGray), ssi && c.gray_lstop) << "Gray";
+      ASSERT_EQ(list.field(offer_t::kWordActuator), sends) << "actuator";
+      ASSERT_EQ(list.field(offer_t::kWordStop), sends && c.gray_lstop) << "stop bit";
       m.next_i = 1;
       list.step();
     }
-    ASSERT_EQ(list.field(43, 1), 0U) << "no word follows";
+    ASSERT_EQ(list.field(offer_t::kAny), 0U) << "no word follows";
   }
 }
 

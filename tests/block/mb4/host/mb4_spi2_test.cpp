@@ -11,6 +11,7 @@
 
 #include "Vmb4_spi2.h"
 #include "mb4_regs.hpp"
+#include "places.hpp"
 #include "tests/support/model_context.hpp"
 
 namespace {
@@ -45,9 +46,9 @@ class Spi2Block : public testing::Test {
     m.mosi_i = mosi;
     m.eval();
     const bool miso = m.miso_o != 0;
-    // mb4_pkg::mem_rd_t: en, addr.
-    const bool read = m.cs_ni == 0 && (m.read_o & 0x40U) != 0;
-    const unsigned address = m.read_o & 0x3FU;
+    namespace at = mb4test::places::mb4_pkg::mem_rd_t;
+    const bool read = m.cs_ni == 0 && at::kEn.of(m.read_o) != 0;
+    const auto address = static_cast<unsigned>(at::kAddr.of(m.read_o));
     m.sclk_i = 1;
     m.eval();
     if (read) m.rd_data_i = memory[address];

@@ -9,9 +9,12 @@
 #include <vector>
 
 #include "Vmb4_spi.h"
+#include "places.hpp"
 #include "tests/support/model_context.hpp"
 
 namespace {
+
+namespace host_t = mb4test::places::mb4_pkg::host_t;
 
 using Bytes = std::vector<std::uint8_t>;
 
@@ -39,10 +42,7 @@ class SpiBlock : public testing::Test {
     spi.cs_ni = active ? 0 : 1;
     spi.eval();
   }
-  // mb4_pkg::host_t: wr_en, wr_addr, wr_data, rd_en, rd_addr.
-  unsigned field(unsigned lsb, unsigned width) const {
-    return spi.host_o >> lsb & ((1U << width) - 1);
-  }
+  unsigned field(mb4test::Place place) const { return static_cast<unsigned>(place.of(spi.host_o)); }
   // One clock: MISO is what the host samples with the rising edge.
   bool clock(bool mosi) {
     spi.mosi_i = mosi ? 1 : 0;
@@ -50,14 +50,14 @@ class SpiBlock : public testing::Test {
     const bool selected = spi.cs_ni == 0;
     const bool miso = spi.miso_o != 0;
     // What the registers see at the rising edge.
-    const bool write = selected && field(25, 1) != 0;
-    const bool read = selected && field(8, 1) != 0;
+    const bool write = selected && field(host_t::kWrEn) != 0;
+    const bool read = selected && field(host_t::kRdEn) != 0;
     if (write) {
-      memory[field(17, 8)] = static_cast<std::uint8_t>(field(9, 8));
+      memory[field(host_t::kWrAddr)] = static_cast<std::uint8_t>(field(host_t::kWrData));
       ++writes;
     }
     if (read) {
-      next = memory[field(0, 8)];
+      next = memory[field(host_t::kRdAddr)];
       ++reads;
     }
     spi.sclk_i = 1;
@@ -166,8 +166,8 @@ TEST_F(SpiBlock, MisoChanges_OnFallingEdgesOnly) {
   for (int i = 0; i < 64; ++i) {
     const auto before = spi.miso_o;
     spi.sclk_i = 1;
-    const bool read = field(8, 1) != 0;
-    const unsigned address = field(0, 8);
+    const bool read = field(host_t::kRdEn) != 0;
+    const unsigned address = field(host_t::kRdAddr);
     spi.eval();
     if (read) spi.rd_data_i = memory[address];
     spi.eval();

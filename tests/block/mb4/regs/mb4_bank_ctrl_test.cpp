@@ -7,12 +7,15 @@
 #include <cstdint>
 
 #include "Vmb4_bank_ctrl.h"
+#include "places.hpp"
 #include "tests/support/model_context.hpp"
 
 namespace {
 
-// Fields of mb4_pkg::bank_cmd_t.
-constexpr std::uint8_t kRun = 0x20, kDataEnd = 0x08, kSwap = 0x02;
+namespace at = mb4test::places::mb4_pkg;
+constexpr auto kRun = static_cast<std::uint8_t>(at::bank_cmd_t::kRun(1));
+constexpr auto kDataEnd = static_cast<std::uint8_t>(at::bank_cmd_t::kDataEnd(1));
+constexpr auto kSwap = static_cast<std::uint8_t>(at::bank_cmd_t::kSwap(1));
 
 class Banks : public mb4test::Block<Vmb4_bank_ctrl> {
  public:
@@ -36,7 +39,7 @@ class Banks : public mb4test::Block<Vmb4_bank_ctrl> {
     lost = false;
     for (int i = 0; i < 4; ++i) {
       model.eval();
-      lost = lost || (model.event_o & 1) != 0;
+      lost = lost || at::bank_event_t::kLost.of(model.event_o) != 0;
       clock();
     }
   }
@@ -56,8 +59,8 @@ class Banks : public mb4test::Block<Vmb4_bank_ctrl> {
     model.bank_i = 0;
     settle();
   }
-  unsigned host() const { return model.banks_o >> 1; }
-  unsigned engine() const { return model.banks_o & 1; }
+  std::uint64_t host() const { return at::banks_t::kHost.of(model.banks_o); }
+  std::uint64_t engine() const { return at::banks_t::kEng.of(model.banks_o); }
 
   bool lost = false;
 };
@@ -113,7 +116,7 @@ TEST(BankCtrlBlock, SwbankInverted_BanksAreSwapped) {
   Banks banks;
   for (const bool hold : {false, true}) {
     banks.hold(hold);
-    const unsigned before = banks.host();
+    const std::uint64_t before = banks.host();
     banks.invert_swbank();
     EXPECT_NE(banks.host(), before);
     EXPECT_NE(banks.host(), banks.engine());

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "Vmb4_cds_bank.h"
+#include "places.hpp"
 #include "tests/support/model_context.hpp"
 
 namespace {
@@ -25,9 +26,10 @@ TEST(CdsBankBlock, RandomFrames_BitsAreThoseOfTheLastFrameOfTheirBank) {
     const bool reduced = random.below(2) != 0;
     const bool hold = random.below(2) != 0;
     const unsigned cds = random.below(4);
-    m.banks_i = static_cast<std::uint8_t>(host << 1 | engine);
-    // mb4_pkg::bank_cmd_t: the ends of all frames, reduced ones.
-    m.bank_i = static_cast<std::uint8_t>((end ? 0x10 : 0) | (reduced ? 0x04 : 0));
+    namespace at = mb4test::places::mb4_pkg;
+    m.banks_i = static_cast<std::uint8_t>(at::banks_t::kHost(host) | at::banks_t::kEng(engine));
+    m.bank_i = static_cast<std::uint8_t>(at::bank_cmd_t::kFrameEnd(end) |
+                                         at::bank_cmd_t::kReduced(reduced));
     m.holdbank_i = hold;
     m.cds_i = static_cast<std::uint8_t>(cds);
     block.clock();

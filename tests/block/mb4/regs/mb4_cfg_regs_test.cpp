@@ -9,6 +9,8 @@
 #include <cstdint>
 
 #include "Vmb4_cfg_regs.h"
+#include "places.hpp"
+#include "tests/block/mb4/host_port.hpp"
 #include "tests/support/model_context.hpp"
 
 namespace {
@@ -16,18 +18,37 @@ namespace {
 struct Field {
   const char* name;
   unsigned address, lsb, width;
+  mb4test::Place place;  // in cfg_o
 };
-// In the order of mb4_pkg::cfg_t, the last member first.
+namespace at = mb4test::places::mb4_pkg::cfg_t;
+
 constexpr Field kFields[] = {
-    {"CLKENI", 0xF5, 0, 1},  {"ENTEST", 0xF5, 1, 1},     {"CFGIF", 0xF5, 2, 2},
-    {"MAFS", 0xF5, 4, 1},    {"MAVS", 0xF5, 5, 1},       {"MAFO", 0xF5, 6, 1},
-    {"MAVO", 0xF5, 7, 1},    {"ACTnSENS", 0xEF, 0, 8},   {"CFGCH1", 0xED, 0, 2},
-    {"CFGCH2", 0xED, 2, 2},  {"SLAVELOC5", 0xEC, 4, 1},  {"MO_BUSY", 0xE9, 0, 8},
-    {"FREQAGS", 0xE8, 0, 8}, {"SINGLEBANK", 0xE7, 0, 1}, {"NOCRC", 0xE7, 1, 1},
-    {"FREQS", 0xE6, 0, 5},   {"FREQR", 0xE6, 5, 3},      {"HOLDCDM", 0xE5, 0, 1},
-    {"EN_MO", 0xE5, 1, 1},   {"SLAVEID", 0xE5, 3, 3},    {"REGVERS", 0xE5, 6, 1},
-    {"CTS", 0xE5, 7, 1},     {"REGNUM", 0xE3, 0, 6},     {"REGADR", 0xE2, 0, 7},
-    {"WNR", 0xE2, 7, 1},     {"CHSEL", 0xE4, 0, 2},
+    {"CLKENI", 0xF5, 0, 1, at::kClkeni},
+    {"ENTEST", 0xF5, 1, 1, at::kEntest},
+    {"CFGIF", 0xF5, 2, 2, at::kCfgif},
+    {"MAFS", 0xF5, 4, 1, at::kMafs},
+    {"MAVS", 0xF5, 5, 1, at::kMavs},
+    {"MAFO", 0xF5, 6, 1, at::kMafo},
+    {"MAVO", 0xF5, 7, 1, at::kMavo},
+    {"ACTnSENS", 0xEF, 0, 8, at::kActnsens},
+    {"CFGCH1", 0xED, 0, 2, at::kCfgch1},
+    {"CFGCH2", 0xED, 2, 2, at::kCfgch2},
+    {"SLAVELOC5", 0xEC, 4, 1, at::kSlaveloc5},
+    {"MO_BUSY", 0xE9, 0, 8, at::kMoBusy},
+    {"FREQAGS", 0xE8, 0, 8, at::kFreqags},
+    {"SINGLEBANK", 0xE7, 0, 1, at::kSinglebank},
+    {"NOCRC", 0xE7, 1, 1, at::kNocrc},
+    {"FREQS", 0xE6, 0, 5, at::kFreqs},
+    {"FREQR", 0xE6, 5, 3, at::kFreqr},
+    {"HOLDCDM", 0xE5, 0, 1, at::kHoldcdm},
+    {"EN_MO", 0xE5, 1, 1, at::kEnMo},
+    {"SLAVEID", 0xE5, 3, 3, at::kAccessSlaveid},
+    {"REGVERS", 0xE5, 6, 1, at::kAccessRegvers},
+    {"CTS", 0xE5, 7, 1, at::kAccessCts},
+    {"REGNUM", 0xE3, 0, 6, at::kAccessRegnum},
+    {"REGADR", 0xE2, 0, 7, at::kAccessRegadr},
+    {"WNR", 0xE2, 7, 1, at::kAccessWnr},
+    {"CHSEL", 0xE4, 0, 2, at::kAccessChsel},
 };
 
 class CfgRegsBlock : public testing::Test {
@@ -38,8 +59,7 @@ class CfgRegsBlock : public testing::Test {
     mb4test::pulse_reset(m);
   }
   void write(unsigned address, unsigned byte, bool enable = true) {
-    // mb4_pkg::host_t: wr_en, wr_addr, wr_data, rd_en, rd_addr.
-    m.host_i = (enable ? 1U << 25 : 0) | address << 17 | byte << 9;
+    m.host_i = mb4test::host_writes(address, byte, enable);
     m.wr_clk_i = 1;
     m.eval();
     m.wr_clk_i = 0;
@@ -56,17 +76,13 @@ class CfgRegsBlock : public testing::Test {
     std::array<unsigned, 256> reads{};
     std::array<unsigned, 256> used{};
     reads[0xEC] = 0x01;  // page 22
-    unsigned at = 0;     // bit of cfg_o
     for (const Field& field : kFields) {
       const unsigned mask = (1U << field.width) - 1;
       const unsigned value = written[field.address] >> field.lsb & mask;
       reads[field.address] |= value << field.lsb;
       used[field.address] |= mask << field.lsb;
-      unsigned port = 0;
-      for (unsigned i = 0; i < field.width; ++i, ++at) {
-        port |= (m.cfg_o[at / 32] >> at % 32 & 1U) << i;
-      }
-      ASSERT_EQ(port, value) << field.name;
+      ASSERT_EQ(field.place.width, field.width) << field.name;
+      ASSERT_EQ(field.place.get(m.cfg_o), value) << field.name;
     }
     // mb4_host_read takes the bytes for these addresses only.
     for (unsigned address = 0xE0; address < 256; ++address) {

@@ -10,6 +10,8 @@
 #include <cstdint>
 
 #include "Vmb4_host_read.h"
+#include "places.hpp"
+#include "tests/block/mb4/host_port.hpp"
 #include "tests/support/model_context.hpp"
 
 namespace {
@@ -97,13 +99,12 @@ void drive(Vmb4_host_read& m, const Sources& s) {
   m.cds_i = static_cast<std::uint8_t>(s.cds);
   m.cdssel2_i = s.cdssel2;
   m.revision_sel_i = static_cast<std::uint8_t>(s.revision);
-  // The members of mb4_pkg::status_t, the first one highest.
-  unsigned status = 0;
-  for (const bool flag : {s.n_agserr, s.n_delayerr, s.n_scderr, s.n_regerr, s.regend, s.eot,
-                          s.swbank_fail, s.cdm_timeout}) {
-    status = status << 1 | flag;
-  }
-  m.status_i = status << 9 | s.regbytes << 3 | s.n_err << 2 | s.sl2 << 1 | s.sl1;
+  using namespace mb4test::places::mb4_pkg::status_t;
+  m.status_i = static_cast<std::uint32_t>(
+      kFlagsNAgserr(s.n_agserr) | kFlagsNDelayerr(s.n_delayerr) | kFlagsNScderr(s.n_scderr) |
+      kFlagsNRegerr(s.n_regerr) | kFlagsRegend(s.regend) | kFlagsEot(s.eot) |
+      kFlagsSwbankFail(s.swbank_fail) | kFlagsCdmTimeout(s.cdm_timeout) |
+      kFlagsRegbytes(s.regbytes) | kNErr(s.n_err) | kSl2(s.sl2) | kSl1(s.sl1));
 }
 
 // The read registers of the memories, which change with the same edge.
@@ -118,7 +119,6 @@ void drive_memories(Vmb4_host_read& m, const Sources& s) {
 
 // REGADR, FREQ, FREQAGS, MO_BUSY, ACTNSENS, the byte of the force bits: pages 27 to 33.
 constexpr std::array<unsigned, 6> kWhole{0xE2, 0xE6, 0xE8, 0xE9, 0xEF, 0xF5};
-constexpr unsigned kRead = 1U << 8;  // rd_en of mb4_pkg::host_t, above rd_addr
 
 TEST(HostReadBlock, EveryAddressAndRandomSources_ReadsAsTable6) {
   mb4test::Dice random;
@@ -141,7 +141,7 @@ TEST(HostReadBlock, EveryAddressAndRandomSources_ReadsAsTable6) {
       // mb4_slave_cfg gives 0 at the addresses of others.
       if (address < 0xC0 || address >= 0xE0) s.slave = 0;
       drive(m, s);
-      m.host_i = kRead | address;
+      m.host_i = mb4test::host_reads(address);
       m.eval();
       m.rd_clk_i = 1;
       m.eval();

@@ -10,6 +10,8 @@
 
 #include "Vmb4_instr_reg.h"
 #include "mb4_regs.hpp"
+#include "places.hpp"
+#include "tests/block/mb4/host_port.hpp"
 #include "tests/support/model_context.hpp"
 
 namespace {
@@ -17,6 +19,9 @@ namespace {
 namespace reg = mb4::regs;
 
 constexpr std::uint8_t kBreak = 0x80, kHoldBank = 0x40, kSwBank = 0x20;
+
+namespace host_t = mb4test::places::mb4_pkg::instr_host_t;
+namespace core_t = mb4test::places::mb4_pkg::instr_core_t;
 
 class Instr : public mb4test::Owned<Vmb4_instr_reg> {
  public:
@@ -30,8 +35,7 @@ class Instr : public mb4test::Owned<Vmb4_instr_reg> {
     }
   }
   void write(std::uint8_t data, std::uint8_t address = reg::kAddrInstr) {
-    // mb4_pkg::host_t: wr_en, wr_addr, wr_data, rd_en, rd_addr.
-    m.host_i = 1U << 25 | unsigned{address} << 17 | unsigned{data} << 9;
+    m.host_i = mb4test::host_writes(address, data);
     m.wr_clk_i = 1;
     m.eval();
     m.wr_clk_i = 0;
@@ -41,15 +45,14 @@ class Instr : public mb4test::Owned<Vmb4_instr_reg> {
   // The core takes one step of the Gray count 0, 1, 3, 2 and keeps the byte without BREAK.
   void core_takes() {
     static constexpr std::uint8_t kNext[] = {1, 3, 0, 2};
-    const unsigned ack = m.instr_i >> 8;
+    const std::uint64_t ack = core_t::kAck.of(m.instr_i);
     ASSERT_NE(count(), ack);
     answer(kNext[ack], static_cast<std::uint8_t>(written() & ~kBreak));
   }
-  // mb4_pkg::instr_host_t and instr_core_t: a count above a byte.
-  unsigned count() const { return m.instr_o >> 8; }
-  unsigned written() const { return m.instr_o & 0xFF; }
+  std::uint64_t count() const { return host_t::kCount.of(m.instr_o); }
+  std::uint64_t written() const { return host_t::kWritten.of(m.instr_o); }
   void answer(unsigned ack, std::uint8_t held) {
-    m.instr_i = static_cast<std::uint16_t>(ack << 8 | held);
+    m.instr_i = static_cast<std::uint16_t>(core_t::kAck(ack) | core_t::kHeld(held));
     m.eval();
   }
   Vmb4_instr_reg& m;
@@ -68,7 +71,7 @@ TEST(InstrRegBlock, AnyByte_ReadsAsWrittenUntilTheCoreHasActed) {
     instr.core_takes();
     EXPECT_EQ(instr.m.pending_o, 0);
     EXPECT_EQ(instr.m.pending_control_o, 0);
-    instr.answer(instr.count(), static_cast<std::uint8_t>(~value));
+    instr.answer(static_cast<unsigned>(instr.count()), static_cast<std::uint8_t>(~value));
     EXPECT_EQ(instr.m.rd_data_o, ~value & 0xFF) << "what the core holds";
   }
 }
@@ -109,7 +112,7 @@ TEST(InstrRegBlock, CloseWritesInAnyNumber_LastByteCountsAndNoBreakIsLost) {
 TEST(InstrRegBlock, CountOfWrites_IsAGrayCount) {
   Instr instr;
   for (int i = 0; i < 9; ++i) {
-    const unsigned before = instr.count();
+    const std::uint64_t before = instr.count();
     instr.write(0);
     EXPECT_EQ(std::popcount(before ^ instr.count()), 1);
     instr.core_takes();

@@ -11,16 +11,18 @@
 #include <cstdint>
 
 #include "Vmb4_memory.h"
+#include "places.hpp"
 #include "tests/support/model_context.hpp"
 
 namespace {
 
-// mb4_pkg::mem_wr_t and mem_rd_t.
 std::uint16_t write_port(bool enable, unsigned address, unsigned byte) {
-  return static_cast<std::uint16_t>((enable ? 1U << 14 : 0) | address << 8 | byte);
+  namespace at = mb4test::places::mb4_pkg::mem_wr_t;
+  return static_cast<std::uint16_t>(at::kEn(enable) | at::kAddr(address) | at::kData(byte));
 }
 std::uint8_t read_port(bool enable, unsigned address) {
-  return static_cast<std::uint8_t>((enable ? 1U << 6 : 0) | address);
+  namespace at = mb4test::places::mb4_pkg::mem_rd_t;
+  return static_cast<std::uint8_t>(at::kEn(enable) | at::kAddr(address));
 }
 
 TEST(MemoryBlock, EveryMixOfWriters_BothSidesReadTheByteOfTheFirst) {

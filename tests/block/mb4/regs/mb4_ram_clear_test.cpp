@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "Vmb4_ram_clear.h"
+#include "places.hpp"
 #include "tests/support/model_context.hpp"
 
 namespace {
@@ -14,8 +15,8 @@ namespace {
 TEST(RamClearBlock, EachReset_ClearsEveryAddressOnce) {
   mb4test::Block<Vmb4_ram_clear> block;
   auto& m = block.model;
-  // mb4_pkg::mem_wr_t: enable, address, byte.
-  const auto busy = [&] { return (m.clear_o >> 14 & 1U) != 0; };
+  namespace at = mb4test::places::mb4_pkg::mem_wr_t;
+  const auto busy = [&] { return at::kEn.of(m.clear_o) != 0; };
   for (const unsigned clocks : {200U, 10U, 64U, 200U}) {
     m.rst_ni = 0;
     block.clock();
@@ -26,8 +27,8 @@ TEST(RamClearBlock, EachReset_ClearsEveryAddressOnce) {
     for (unsigned i = 0; i < clocks; ++i) {
       ASSERT_EQ(busy(), i < 64) << "clock " << i;
       if (busy()) {
-        ++seen.at(m.clear_o >> 8 & 0x3FU);
-        ASSERT_EQ(m.clear_o & 0xFFU, 0U);
+        ++seen.at(at::kAddr.of(m.clear_o));
+        ASSERT_EQ(at::kData.of(m.clear_o), 0U);
       }
       block.clock();
     }

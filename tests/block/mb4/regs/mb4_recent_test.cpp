@@ -13,6 +13,7 @@
 
 #include "Vmb4_recent.h"
 #include "Vmb4_recent_one.h"
+#include "tests/block/mb4/host_port.hpp"
 #include "tests/support/model_context.hpp"
 
 namespace {
@@ -70,8 +71,7 @@ class RecentBlock : public testing::Test, protected Recent<Vmb4_recent> {
     writing = true;
     now = {address, byte};
     m.bank_i = (address & 0x40) != 0;
-    // mb4_pkg::host_t: wr_en, wr_addr, wr_data, rd_en, rd_addr.
-    m.host_i = 1U << 25 | (address & ~0x40U) << 17 | byte << 9;
+    m.host_i = mb4test::host_writes(address & ~0x40U, byte);
     edge(one_clock);
   }
   // Reads with an edge and compares with what decision 36 says.
@@ -92,7 +92,7 @@ class RecentBlock : public testing::Test, protected Recent<Vmb4_recent> {
     const bool ended = empty() || (m.marked_i == m.mark_o && found < marked_up_to) ||
                        (empty_at_edge && found < before_edge);
     m.bank_i = (address & 0x40) != 0;
-    m.host_i = 1U << 8 | (in_memory ? address & ~0x40U : address | 0x40);
+    m.host_i = mb4test::host_reads(in_memory ? address & ~0x40U : address | 0x40);
     m.eval();
     if (one_clock) {
       edge(true);
@@ -179,7 +179,7 @@ void expect_read_back(const std::vector<unsigned>& whole) {
   std::array<int, 256> written{};
   const auto look = [&](unsigned address) {
     m.bank_i = random.below(2) != 0;
-    m.host_i = 1U << 8 | address;
+    m.host_i = mb4test::host_reads(address);
     edge(m.rd_clk_i);
     ASSERT_EQ(m.hit_o, written[address] >= 0) << std::hex << address;
     if (m.hit_o != 0) {
@@ -196,7 +196,7 @@ void expect_read_back(const std::vector<unsigned>& whole) {
         random.below(2) == 0 ? whole[random.below(count)] : 0xC0 + random.below(64);
     const unsigned byte = random.below(256);
     m.bank_i = random.below(2) != 0;
-    m.host_i = 1U << 25 | address << 17 | byte << 9;
+    m.host_i = mb4test::host_writes(address, byte);
     edge(m.wr_clk_i);
     if (std::count(whole.begin(), whole.end(), address) != 0) {
       written[address] = static_cast<int>(byte);

@@ -11,11 +11,15 @@
 #include <utility>
 
 #include "Vmb4_scd_store.h"
+#include "places.hpp"
 #include "tests/support/model_context.hpp"
 
 namespace {
 
-// What a line tells: the fields of biss_pkg::line_data_t.
+namespace pkg = mb4test::places::mb4_pkg;
+namespace line_t = mb4test::places::biss_pkg::line_data_t;
+
+// What a line tells.
 struct Line {
   bool wr_en = false;
   unsigned slave = 0, wr_byte = 0, wr_data = 0;
@@ -24,20 +28,14 @@ struct Line {
   unsigned delay = 0;
 
   std::uint64_t port() const {
-    std::uint64_t value = slave;
-    const auto add = [&](unsigned field, unsigned bits) { value = value << bits | field; };
-    add(wr_en ? 1 : 0, 1);
-    add(wr_byte, 3);
-    add(wr_data, 8);
-    for (const bool flag : {first, open, done, ok}) add(flag ? 1 : 0, 1);
-    add(0, 1);  // CDS
-    add(delay_en ? 1 : 0, 1);
-    add(delay, 8);
-    return value;
+    using namespace line_t;
+    return kRxSlave(slave) | kRxWrEn(wr_en) | kRxWrByte(wr_byte) | kRxWrData(wr_data) |
+           kRxFirst(first) | kRxOpen(open) | kRxDone(done) | kRxOk(ok) | kDelayEn(delay_en) |
+           kDelay(delay);
   }
 };
 
-constexpr unsigned kSwap = 0x02;  // mb4_pkg::bank_cmd_t
+constexpr auto kSwap = static_cast<unsigned>(pkg::bank_cmd_t::kSwap(1));
 
 class ScdStore : public mb4test::Block<Vmb4_scd_store> {
  public:
@@ -50,18 +48,20 @@ class ScdStore : public mb4test::Block<Vmb4_scd_store> {
     model.data_i = 0;
     reset();
     for (unsigned address = 0; address < 64; ++address) {
-      model.clear_i = static_cast<std::uint16_t>(1U << 14 | address << 8);
+      model.clear_i =
+          static_cast<std::uint16_t>(pkg::mem_wr_t::kEn(1) | pkg::mem_wr_t::kAddr(address));
       clock();
     }
     model.clear_i = 0;
   }
   void apply(const std::array<Line, 2>& lines) {
-    model.data_i = lines[1].port() << 29 | lines[0].port();
+    model.data_i = lines[1].port() << line_t::kAllBits | lines[0].port();
     model.eval();
   }
   // The byte of a bank at an address of Table 20, as the host reads it.
   unsigned read(unsigned bank, unsigned address) {
-    model.rd_i = static_cast<std::uint8_t>(0x40 | (address & 31));
+    model.rd_i =
+        static_cast<std::uint8_t>(pkg::mem_rd_t::kEn(1) | pkg::mem_rd_t::kAddr(address & 31));
     model.rd_clk_i = 1;
     model.eval();
     model.rd_clk_i = 0;
@@ -82,7 +82,7 @@ TEST(ScdStoreBlock, RandomBytes_StandAtTheAddressesOfTable20) {
     const unsigned host = random.below(2);
     const unsigned engine = random.below(2);
     m.slaveloc5_i = two_lines;
-    m.banks_i = static_cast<std::uint8_t>(host << 1 | engine);
+    m.banks_i = static_cast<std::uint8_t>(pkg::banks_t::kHost(host) | pkg::banks_t::kEng(engine));
     std::array<Line, 2> lines;
     for (unsigned i = 0; i < 2; ++i) {
       Line& line = lines[i];

@@ -10,6 +10,8 @@
 #include <map>
 
 #include "Vmb4_slave_cfg.h"
+#include "places.hpp"
+#include "tests/block/mb4/host_port.hpp"
 #include "tests/support/model_context.hpp"
 
 namespace {
@@ -25,14 +27,17 @@ unsigned polynomial(unsigned byte) {
   return row == kTable14.end() ? 0 : row->second;
 }
 
-// What a word list reads: mb4_pkg::slave_cfg_t.
+namespace row_t = mb4test::places::mb4_pkg::slave_cfg_t;
+
+// What a word list reads; `length` is the byte with SCDLEN, ENSCD and GRAYS or LSTOP (Table 11).
 std::uint64_t list_row(unsigned length, unsigned crc, unsigned start) {
   const unsigned full = polynomial(crc);
   unsigned bits = 0;
   while (full >> (bits + 1) != 0) ++bits;
-  const std::uint64_t on = bits != 0, last = bits == 0 ? 0 : bits - 1;
-  const std::uint64_t poly = full >> 1 & 0x7F;  // with the highest power, up to x^7
-  return std::uint64_t{start} << 20 | on << 19 | last << 15 | poly << 8 | length;
+  // The polynomial with the highest power, up to x^7.
+  return row_t::kCrcStart(start) | row_t::kCrcOn(bits != 0) |
+         row_t::kCrcLast(bits == 0 ? 0 : bits - 1) | row_t::kCrcPoly(full >> 1) |
+         row_t::kGrayLstop(length >> 7) | row_t::kEnscd(length >> 6) | row_t::kScdlen(length);
 }
 
 class SlaveCfgBlock : public testing::Test {
@@ -47,8 +52,7 @@ class SlaveCfgBlock : public testing::Test {
     bytes.fill(0);
   }
   void write(unsigned address, unsigned byte) {
-    // mb4_pkg::host_t: wr_en, wr_addr, wr_data, rd_en, rd_addr.
-    m.host_i = 1U << 25 | (0xC0 | address) << 17 | byte << 9;
+    m.host_i = mb4test::host_writes(0xC0 | address, byte);
     m.wr_clk_i = 1;
     m.eval();
     m.wr_clk_i = 0;
@@ -58,7 +62,7 @@ class SlaveCfgBlock : public testing::Test {
   }
   unsigned read(unsigned address) { return read_map(0xC0 | address); }
   unsigned read_map(unsigned address) {
-    m.host_i = 1U << 8 | address;
+    m.host_i = mb4test::host_reads(address);
     m.rd_clk_i = 1;
     m.eval();
     m.rd_clk_i = 0;
@@ -77,11 +81,7 @@ class SlaveCfgBlock : public testing::Test {
     m.clk_i = 0;
     m.list_en_i = 0;
     m.eval();
-    std::uint64_t row = 0;
-    for (unsigned i = 36 * list; i < 36 * (list + 1); ++i) {
-      row |= std::uint64_t{m.list_cfg_o[i / 32] >> i % 32 & 1U} << (i - 36 * list);
-    }
-    return row;
+    return mb4test::Place{row_t::kAllBits * list, row_t::kAllBits}.get(m.list_cfg_o);
   }
   std::array<unsigned, 32> bytes{};
   mb4test::Owned<Vmb4_slave_cfg> owner;
