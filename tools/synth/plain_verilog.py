@@ -31,6 +31,9 @@ KEPT = re.findall(r"(\w+) = ", (project.INCLUDE / "enc_sync.svh").read_text(enco
 OTHERS = rf"\(\* \\?(?!(?:{'|'.join(KEPT)}) )[^\n]*?\*\)"
 ATTRIBUTE = re.compile(rf"^ *{OTHERS}\n|{OTHERS} ?", re.M)
 
+# In the names of variables of functions: the file stays, its folder goes.
+PLACE = re.compile(r"\$func\$/\S*/(?=[\w.]+:\d+\$)")
+
 
 def write(top, folder, files=None, parameters=None, preset="full"):
     """FOLDER/TOP.v of the RTL (a top, or a module below one), or of other files with the same modules; its
@@ -50,7 +53,8 @@ def write(top, folder, files=None, parameters=None, preset="full"):
     if status != 0:
         raise SystemExit(f"{top}: {text}")
     head = HEAD.format(top=top, features=features, source=project.rtl_modules()[top].relative_to(project.ROOT))
-    path.write_text(head + ATTRIBUTE.sub("", path.read_text(encoding="utf-8")), encoding="utf-8")
+    text = PLACE.sub("$func$", ATTRIBUTE.sub("", path.read_text(encoding="utf-8")))
+    path.write_text(head + text, encoding="utf-8")
     (folder / f"{top}.ys").unlink()
     return path
 
