@@ -58,7 +58,8 @@ FAMILIES = {
     "ECP5": Family("synth_ecp5", r"^LUT4$", r"^TRELLIS_FF$", r"^DP16KD$", {r"^TRELLIS_DPR16X4$": 6}, "CCU2C"),
     # RAM32M, RAM64M: the four LUTs of a SLICEM. One of two ports takes a LUT for each, of 128 bits two.
     "Xilinx 7": Family("synth_xilinx -family xc7 -flatten", r"^LUT\d$", r"^FD[CPRS]E(_1)?$", r"^RAMB\d+E1$",
-                       {r"^RAM(32|64)M$": 4, r"^RAM(32|64)X1D$": 2, r"^RAM128X1D$": 4, r"^SRL": 1}, "CARRY4"),
+                       {r"^RAM(32|64)M$": 4, r"^RAM(32|64)X1D$": 2, r"^RAM128X1D$": 4, r"^RAM(32|64)X1S$": 1, r"^RAM128X1S$": 2,
+                        r"^RAM256X1S$": 4, r"^SRL": 1}, "CARRY4"),
 }
 
 
