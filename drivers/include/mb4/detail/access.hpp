@@ -206,7 +206,7 @@ inline void Procedures::add_request(ChipState& chip, Operation& op) {
     op.stage_ = kData;
     add_bytes(op, static_cast<std::uint8_t>(regs::kAddrRdata + op.at_), op.data_ + op.at_,
               part_size(op));
-    if (chip.automatic && chip.checks_all()) {
+    if (looks_at_words(chip, op)) {
       add_read(op, static_cast<std::uint8_t>(regs::kAddrScdata + op.at_), part_size(op), 1);
     }
     return;
@@ -220,6 +220,13 @@ inline void Procedures::add_request(ChipState& chip, Operation& op) {
   if (looks_for_strays(chip)) {
     add_witness(op);
   }
+}
+
+// 0x80 and 0x00 differ in one bit: a part may go to the SCDATAx of a sensor instead of RDATA.
+inline bool Procedures::looks_at_words(const ChipState& chip, const Operation& op) {
+  static_assert(Operation::kPart == regs::kScdataStride, "a part is that of one slave");
+  return chip.automatic && chip.checks_all() &&
+         (unsigned{chip.sensors} >> op.at_ / Operation::kPart & 1U) != 0;
 }
 
 // A disturbed byte of a read that has ended well may have begun an access (0x01 and 0x09, INSTR =
@@ -428,11 +435,20 @@ inline Result<void> Procedures::take_access_restart(ChipState& chip, Operation& 
   return done;
 }
 
+[[nodiscard]] inline bool is_zero(const std::uint8_t* bytes, std::size_t size) {
+  unsigned any = 0;
+  for (std::size_t i = 0; i < size; ++i) {
+    any |= bytes[i];
+  }
+  return any == 0;
+}
+
 // A part of RDATA or IDS was written.
 inline void Procedures::take_data(ChipState& chip, Operation& op) {
-  // 0x80 and 0x00 differ in one bit. If the bytes are in SCDATAx, a word that waits may be no word
-  // of the encoder, although its CRC fits (all 0): the next read drops it.
-  if (chip.automatic && chip.checks_all() && part_is_back(op)) {
+  // If the bytes are in SCDATAx, a word that waits may be no word of the encoder, although its CRC
+  // fits: the next read drops it. A disturbed opcode makes that look a write (0x0B and 0x02), whose
+  // answer is all 0. So a word that is 0 there is dropped too.
+  if (looks_at_words(chip, op) && (part_is_back(op) || is_zero(received(op) + 2, part_size(op)))) {
     chip.watch.held = true;
   }
   op.at_ += part_size(op);

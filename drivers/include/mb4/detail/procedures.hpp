@@ -670,6 +670,7 @@ struct Procedures {
                                                           std::uint32_t now_us);
   // and access.hpp.
   static void add_request(ChipState& chip, Operation& op);
+  static bool looks_at_words(const ChipState& chip, const Operation& op);
   static bool looks_for_strays(const ChipState& chip);
   [[gnu::always_inline]] static bool stray_takes_request(const ChipState& chip);
   static void add_data_back(ChipState& chip, Operation& op);
