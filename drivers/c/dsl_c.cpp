@@ -119,9 +119,10 @@ dsl_result dsl_wait_for_link(dsl_master* master, uint32_t limit_us, dsl_encoder*
                });
 }
 dsl_result dsl_read_position(dsl_master* master, dsl_position* position) {
-  return store(of(master).device.position(), position, [](const dsl::Position& now) {
-    return dsl_position{now.position, now.speed, now.frame, now.quality};
-  });
+  dsl::Position now;
+  const dsl::Error error = of(master).device.read_position(now);
+  if (error == dsl::Error::kNone) *position = {now.position, now.speed, now.frame, now.quality};
+  return to_c(dsl::ErrorInfo(error));
 }
 dsl_safe_rules dsl_safe_rules_default(void) {
   const dsl::SafeRules rules;

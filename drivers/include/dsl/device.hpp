@@ -112,8 +112,9 @@ class Device {
   [[nodiscard]] const Encoder& encoder() const { return encoder_; }
 
   // ---- position ----
-  // The position of the last frame, for an interrupt: five accesses. kBus, kNoLink, kUncertain.
-  Result<Position> position() {
+  // The position of the last frame, for an interrupt: five accesses. kBus, kNoLink, kUncertain;
+  // then `now` is as before. It makes no copy: 25 instructions of a
+  [[nodiscard]] Error read_position(Position& now) {
     std::uint32_t low = 0, high = 0, speed = 0, frame = 0, status = 0;
     if (!read(page::kAddrPosLo, low) || !read(page::kAddrPosHi, high) ||
         !read(page::kAddrVel, speed) || !read(page::kAddrFrameCount, frame) ||
@@ -122,11 +123,17 @@ class Device {
     }
     if (!certain(status))
       return (status & page::LINKED::kMask) == 0 ? Error::kNoLink : Error::kUncertain;
-    Position now;
     now.position = static_cast<std::int64_t>(std::uint64_t{high} << 32U | low);
     now.speed = static_cast<std::int32_t>(speed);
     now.frame = frame;
     now.quality = static_cast<std::uint8_t>(page::QUALITY::get(status));
+    return Error::kNone;
+  }
+  // The same as a Result.
+  Result<Position> position() {
+    Position now;
+    const Error error = read_position(now);
+    if (error != Error::kNone) return error;
     return now;
   }
   // The last safe position, after all checks of check_safe(). linked() must have been true in this

@@ -31,10 +31,12 @@ dsl_port port_of(DslBus& rig) {
 void wait(void* context) { static_cast<DslBus*>(context)->frames(1); }
 
 const char* const kResources =
+    "access_level = 1\n"
     "[[channel.slave.resource]]\nid = 0x202\nname = \"TEMP\"\ntype = \"i16\"\nvalue = -5\n"
     "[[channel.slave.resource]]\nid = 0x203\nname = \"SECRET\"\ntype = \"u32\"\nvalue = 42\n"
     "read_level = 3\n"
-    "[[channel.slave.resource]]\nid = 0x204\nname = \"TABLE\"\ntype = \"u16\"\nvalue = 9\n";
+    "[[channel.slave.resource]]\nid = 0x204\nname = \"TABLE\"\ntype = \"u16\"\nvalue = 9\n"
+    "write_level = 1\n";
 
 TEST(DslC, Program_ReadsWhatTheEncoderHas) {
   DslRig rig(kResources);
@@ -66,7 +68,7 @@ TEST(DslC, Program_ReadsWhatTheEncoderHas) {
   // By the published names.
   EXPECT_EQ(report.published_states[0], 0xFFFB);          // TEMP
   EXPECT_EQ(report.published_states[4], 15 << 8 | 0x8F);  // LINK and QM
-  EXPECT_EQ(report.published_states[5] & 0xFF, 3);        // delay of 30 m
+  EXPECT_EQ(report.published_states[5] & 0xFF, 4);        // delay of 30 m and the encoder
   EXPECT_EQ(report.published_states[6] & 0xF, 11 - 8);    // bits of the acceleration
   EXPECT_EQ(report.published_states[7], 0);
   EXPECT_EQ(report.published_states[1] & 0x1000, 0x1000);  // a fixed bit
@@ -85,16 +87,16 @@ TEST(DslC, FailedBus_IsToldByEachCall) {
   const dsl_port port = port_of(rig);
   dsl_master master;
   dsl_open(&master, &port);
-  rig.arm({.fails = 0, .flips = {}});
+  rig.arm({.fails = 0, .flips = {}, .hole = {}});
   EXPECT_EQ(HDSL_get_pos(&master, 0), ~std::uint64_t{0});
-  rig.arm({.fails = 0, .flips = {}});
+  rig.arm({.fails = 0, .flips = {}, .hole = {}});
   EXPECT_EQ(HDSL_set_pc_addr(&master, 0, 0, 0, 0), -static_cast<int>(DSL_BUS));
-  rig.arm({.fails = 0, .flips = {}});
+  rig.arm({.fails = 0, .flips = {}, .hole = {}});
   EXPECT_EQ(dsl_start(&master).error, DSL_BUS);
-  rig.arm({.fails = 0, .flips = {}});
+  rig.arm({.fails = 0, .flips = {}, .hole = {}});
   EXPECT_EQ(dsl_write_byte(&master, 1, 0).error, DSL_BUS);
   dsl_program_report report{};
-  rig.arm({.fails = 2, .flips = {}});
+  rig.arm({.fails = 2, .flips = {}, .hole = {}});
   EXPECT_NE(dsl_program(&port, wait, &report), 0);
 }
 

@@ -242,7 +242,7 @@ TEST(DslDriver, Safe_EachFlippedBit_NoWrongPosition) {
   for (std::uint64_t read = 0; read < reads; ++read) {
     for (unsigned bit = 0; bit < 32; ++bit) {
       rig.frames(1);
-      rig.arm({.fails = {}, .flips = read, .bit = bit});
+      rig.arm({.fails = {}, .flips = read, .hole = {}, .bit = bit});
       const auto safe = rig.device.safe(kRules);
       if (!safe) {
         ++refused;
@@ -269,7 +269,7 @@ TEST(DslDriver, Position_EachFlippedBit_OnlyTheNamedOnesPass) {
     for (unsigned bit = 0; bit < 32; ++bit) {
       rig.frames(1);
       const auto before = rig.device.position();
-      rig.arm({.fails = {}, .flips = read, .bit = bit});
+      rig.arm({.fails = {}, .flips = read, .hole = {}, .bit = bit});
       const auto now = rig.device.position();
       rig.arm({});
       const auto after = rig.device.position();
@@ -310,7 +310,7 @@ TEST(DslDriver, EachFailedAccess_IsBus) {
     const std::uint64_t accesses = rig.accesses();
     ASSERT_GE(accesses, 1U);
     for (std::uint64_t access = 0; access < accesses; ++access) {
-      rig.arm({.fails = access, .flips = {}});
+      rig.arm({.fails = access, .flips = {}, .hole = {}});
       const Error error = calls[call]();
       rig.arm({});
       EXPECT_EQ(error, Error::kBus) << call << ", access " << access;
@@ -325,7 +325,8 @@ TEST(DslDriver, QualityAndEvents) {
   auto quality = rig.device.quality();
   ASSERT_TRUE(quality);
   EXPECT_EQ(quality->quality, 15);
-  EXPECT_EQ(quality->delay_bits, 3);  // 30 m, there and back
+  // 30 m, there and back, and 95 ns in the encoder: 413 ns, in bits of 106.67 ns.
+  EXPECT_EQ(quality->delay_bits, 4);
   EXPECT_NE(quality->edges, 0);
   EXPECT_EQ(quality->restarts, 0);
   EXPECT_EQ(quality->illegal_words, 0);
@@ -342,7 +343,7 @@ TEST(DslDriver, QualityAndEvents) {
   ASSERT_TRUE(rig.device.take_interrupts());
   ASSERT_TRUE(rig.device.enable_interrupts(page::EVENT::kMask | page::SAFE_EVENT::kMask));
   rig.set_fault(fault::kWrongCrc);
-  rig.frames(17);
+  rig.frames(8);  // one vertical frame
   rig.set_fault(fault::kWrongCrc, false);
   rig.frames(17);
   const auto pending = rig.device.take_interrupts();

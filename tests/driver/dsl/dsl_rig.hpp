@@ -31,6 +31,7 @@ inline constexpr unsigned kDslBits = 30;
 struct BusFault {
   std::optional<std::uint64_t> fails;  // this access
   std::optional<std::uint64_t> flips;  // this read, in this bit
+  std::optional<std::uint32_t> hole;   // no read of this offset is answered
   unsigned bit = 0;
 };
 
@@ -39,13 +40,14 @@ class DslBus {
  public:
   // `slave`: more keys of the encoder; `master`: more tables.
   explicit DslBus(const std::string& slave = "", const std::string& master = "")
-      : simulator_(mb4::sim::parse_scenario(
-                       "[master]\ntype = \"dsl\"\n" + master +
-                           "[[channel]]\nnumber = 1\ncable_m = 30.0\n"
-                           "[[channel.slave]]\nprotocol = \"dsl\"\nposition_bits = 30\n" +
-                           slave,
-                       "test"),
-                   {}),
+      : simulator_(
+            mb4::sim::parse_scenario(
+                "[master]\ntype = \"dsl\"\n" + master +
+                    "[[channel]]\nnumber = 1\ncable_m = 30.0\n"
+                    "[[channel.slave]]\nprotocol = \"dsl\"\nposition_bits = 30\nsigned = true\n" +
+                    slave,
+                "test"),
+            {}),
         bus_(simulator_.word_bus()) {
     encoder().set_motion(motion, this);
   }
@@ -54,6 +56,7 @@ class DslBus {
   bool read(std::uint32_t offset, std::uint32_t& word) {
     if (fault.fails == accesses_++) return false;
     EXPECT_EQ(offset % 4, 0U);
+    if (fault.hole == offset) return false;
     if (bus_->read(offset, word) != std::uint8_t{0}) return false;
     if (fault.flips == reads_++) word ^= std::uint32_t{1} << fault.bit;
     return true;

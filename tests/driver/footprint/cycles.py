@@ -9,6 +9,7 @@
                                        (operation_main.cpp)
   cycles.py TARGET safety INCLUDE_DIR...  one check of BiSS Safety, a write and a read of a Snapshot
                                        (safety_main.cpp)
+  cycles.py TARGET dsl INCLUDE_DIR...  one position of the DSL master: instructions, and its bytes of code
   cycles.py self-test                 the sum can be wrong
 
 The board's own functions are not counted. The cycles are those of the Cortex-M0+ Technical
@@ -135,7 +136,7 @@ def traced(elf, machine, work):
 
 
 # {argument: (program, number of functions measured_...())}
-LONGEST = {"steps": ("operation_main.cpp", 6), "safety": ("safety_main.cpp", 3)}
+LONGEST = {"steps": ("operation_main.cpp", 6), "safety": ("safety_main.cpp", 3), "dsl": ("dsl_main.cpp", 1)}
 
 
 def measure_longest(target, what, includes):
@@ -151,6 +152,12 @@ def measure_longest(target, what, includes):
              HERE / program, "-o", work / "unit.elf"])
         code = functions(run(["arm-none-eabi-objdump", "-d", work / "unit.elf"]))
         found = longest(traced(work / "unit.elf", machine, work), code)
+    if what == "dsl":
+        unit = "instructions"
+        size = sum(following - address for address, (name, _, _, following) in code.items() if "measured_" in name)
+        print(f"{target} {optimize}: {size} bytes of code")
+        if size > 1024:
+            sys.exit("more than 1 KiB")
     limits = tomllib.loads((HERE / "budget.toml").read_text())["time"][target]
     if len(found) != functions_wanted:
         sys.exit(f"{sorted(found)}: {functions_wanted} functions were to be measured")
