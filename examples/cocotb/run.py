@@ -2,13 +2,13 @@
 # SPDX-FileCopyrightText: 2026 The openmb4 authors
 # SPDX-License-Identifier: Apache-2.0
 """Runs a cocotb test bench with Icarus Verilog: mb4_core_test.py, mb4_bus_test.py for the tops with
-a bus of words, or biss_axi_test.py.
+a bus of words, biss_axi_test.py, or dsl_axil_test.py.
 
   run.py VERILOG FOLDER    VERILOG is mb4_core.v, mb4_axil.v or mb4_wb.v of a release or of
                            tools/synth/plain_verilog.py, or biss_axi.v with two channels in stream
-                           mode 1 (tests/python/cocotb_test.py makes it); FOLDER takes the build
+                           mode 1 (tests/python/cocotb_test.py makes it), or dsl_axil.v; FOLDER takes the build
 
-Needs cocotb 2.1 and the openmb4 package; mb4_axil and biss_axi cocotbext-axi, mb4_wb
+Needs cocotb 2.1 and the openmb4 package; mb4_axil, biss_axi and dsl_axil cocotbext-axi, mb4_wb
 cocotbext-wishbone."""
 
 import sys
@@ -29,7 +29,7 @@ def main():
     folder.mkdir(parents=True, exist_ok=True)
     # Icarus takes the unit of time from the source only; a release's Verilog has it.
     top = verilog.stem
-    bench = {"mb4_core": "mb4_core_test", "biss_axi": "biss_axi_test"}.get(top, "mb4_bus_test")
+    bench = {"mb4_core": "mb4_core_test", "biss_axi": "biss_axi_test", "dsl_axil": "dsl_axil_test"}.get(top, "mb4_bus_test")
     runner = get_runner("icarus")
     runner.build(sources=[verilog.resolve()], hdl_toplevel=top, build_dir=folder, always=True)
     results = runner.test(hdl_toplevel=top, test_module=bench, build_dir=folder,

@@ -14,13 +14,15 @@ package, python, folder, top = sys.argv[1:]
 
 # Packages of Python; the fault, which fails every test of the bench.
 NEEDS = {"mb4_core": "cocotb", "mb4_axil": "cocotbext.axi", "mb4_wb": "cocotbext.wishbone",
-         "biss_axi": "cocotbext.axi"}
+         "biss_axi": "cocotbext.axi", "dsl_axil": "cocotbext.axi"}
 FAULT = {"mb4_core": (r"(?m)^(\s*assign ma1_o = ).*;$", r"\1 1'b1;"),  # MA never moves
          "mb4_axil": (r"(?m)^(\s*assign s_axi_rdata = )(.*);$", r"\1 (\2) ^ 32'h10;"),
          "mb4_wb": (r"(?m)^(\s*assign wb_dat_o = )(.*);$", r"\1 (\2) ^ 32'h10;"),
-         "biss_axi": (r"(?m)^(\s*assign S_AXI_RDATA = )(.*);$", r"\1 (\2) ^ 32'h1;")}
+         "biss_axi": (r"(?m)^(\s*assign S_AXI_RDATA = )(.*);$", r"\1 (\2) ^ 32'h1;"),
+         "dsl_axil": (r"(?m)^(\s*assign s_axi_rdata = )(.*);$", r"\1 (\2) ^ 32'h3;")}
 # Two channels; a beat for each, through a short FIFO; the counters and the page.
-PARAMETERS = {"BISS_CHANNEL_WIDTH": 2, "STREAM_MODE": 1, "STREAM_DEPTH": 4, "EXTRAS": 0x11}
+PARAMETERS = {"biss_axi": {"BISS_CHANNEL_WIDTH": 2, "STREAM_MODE": 1, "STREAM_DEPTH": 4, "EXTRAS": 0x11}}
+MASTERS = {"biss_axi": "axi", "dsl_axil": "dsl"}
 
 
 def main():
@@ -34,9 +36,9 @@ def main():
     import plain_verilog
     out = Path(folder)
     out.mkdir(parents=True, exist_ok=True)
-    if top == "biss_axi":
-        files = plain_verilog.project.rtl_files("axi")
-        good = plain_verilog.write(top, out, files, PARAMETERS)
+    if top in MASTERS:
+        files = plain_verilog.project.rtl_files(MASTERS[top])
+        good = plain_verilog.write(top, out, files, PARAMETERS.get(top, {}))
     else:
         good = plain_verilog.write(top, out)
     text, count = re.subn(*FAULT[top], good.read_text(encoding="utf-8"))
