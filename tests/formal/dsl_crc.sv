@@ -39,7 +39,7 @@
 // look: event1 = u_dut.event1_q
 // look: event2 = u_dut.event2_q
 // mutation: dsl/dsl_vertical.sv | localparam logic [7:0] POLY5       = 8'h05; | localparam logic [7:0] POLY5       = 8'h03;
-// mutation: common/enc_crc.sv | localparam logic [7:0] POLY16_LOWER = 8'hD9; | localparam logic [7:0] POLY16_LOWER = 8'hDB;
+// mutation: dsl/dsl_crc16.sv | POLY = 16'h90D9; | POLY = 16'h90DB;
 // mutation: dsl/dsl_vertical.sv | if (vertical  && top1 == (level ^ last ^ 1'b1)) | if (vertical  && top1 == (level ^ 1'b1))
 // mutation: dsl/dsl_vertical.sv | .shift_i (shift_q && secondary), | .shift_i (shift_q && !acceleration),
 // mutation: dsl/dsl_vertical.sv | bit_q >= CRC5_BIT; | bit_q > CRC5_BIT;
@@ -171,6 +171,7 @@ module proof (
   logic [4:0]  count_q;        // missing
   logic        v1_q, v2_q, x1_q, x2_q, s1_q, g1_q, s2_q;
   logic        mark, missing_next;
+  logic        many_q;         // the count reached the limit a clock before
   logic        sign_q;         // bit 39 of safe position 1
   logic        above_q;        // a bit above the width is wrong
   logic        fits_not_q;     // verdict.misfit
@@ -196,6 +197,10 @@ module proof (
   end
 
   assign most         = limit == 5'd0 ? 5'd1 : limit;
+  always @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) many_q <= 1'b0;
+    else         many_q <= count_q >= most;
+  end
   assign missing_next = running_q && (bad_word_q ? count_q + 5'd1 : 5'd0) >= most;
 
   // Bits of this byte of safe position 1, and what they have to be where the position has none.
@@ -268,7 +273,7 @@ module proof (
     Valid2_A:  assert (told.safe2_valid == v2_q && told.safe2_error == x2_q);
     Verdict_A: assert (verdict.safe1_error == s1_q && verdict.safe1_good == g1_q
                        && verdict.safe2_error == s2_q);
-    Missing_A: assert (told.missing == count_q && verdict.missing == (count_q >= most));
+    Missing_A: assert (told.missing == count_q && verdict.missing == many_q);
     Limit_A:   assert (count_q <= most);
     Below_A:   assert (stops_q || count_q < most);
     Misfit_A:  assert (verdict.misfit == fits_not_q);
