@@ -15,9 +15,9 @@
 // byte of a number comes first; dsl_program has its order, eight addresses a value. An age is all
 // ones if none has come. Each tell_o has a whole record before it, so a reader needs banks that
 // change with it (dsl_record): with record_busy_i nothing is written, and the work waits.
-// Status: byte 0 as STATUS, with the errors of the two safe channels in bits 6 and 7; byte 1 quality
-// and delay; byte 2 the state of the link; byte 3 the reason. It is that of the frame's end. A link
-// that is over makes a record more, without young safe positions.
+// Status: byte 0 as STATUS, with the errors of the two safe channels in bits 6 and 7; byte 1
+// quality and delay; byte 2 the state of the link; byte 3 the reason. It is that of the frame's
+// end. A link that is over makes a record more, without young safe positions.
 //
 // time_i: the byte of the frame's time; time_next_o asks for the next one, eight times a frame, the
 // lowest one first. The first one is taken 5 clocks or more behind the second word.

@@ -5,9 +5,9 @@
 // safe channels. It counts accelerations that are missing one after another.
 //
 // Clock domain: core. A word is taken with answer_i.valid and needs the nine clocks behind it. From
-// the clock behind answer_i.ends on verdict_o and told_o are those of the frame, and one clock later
-// verdict_o.missing; a frame that is not running leaves told_o. told_o.acceleration_good and _marked
-// are right earlier: from the ninth clock behind the second word of the acceleration on.
+// the clock behind answer_i.ends on verdict_o and told_o are those of the frame, and one clock
+// later verdict_o.missing; a frame that is not running leaves told_o. told_o.acceleration_good and
+// _marked are right earlier: from the ninth clock behind the second word of the acceleration on.
 //
 // A safe channel is good if neither the code of its eight bytes nor their CRC was wrong, and if no
 // special character but K28.x was among them: with one the encoder says that it has no position.
