@@ -243,11 +243,12 @@ TEST(DslDriver, Safe_EachFlippedBit_NoWrongPosition) {
       rig.frames(1);
       rig.arm({.fails = {}, .flips = read, .hole = {}, .bit = bit});
       const auto safe = rig.device.safe(kRules);
+      const bool once = rig.reads() == reads;  // no vertical frame has ended meanwhile
       rig.arm({});
       // Position, state and CRC of both channels, and whether they are good; not ages and
       // SAFE_STATUS.
       const std::uint64_t word = read % 4;
-      const bool covered = read < 8 && (word < 2 || (word == 2 && (bit < 24 || bit > 29)));
+      const bool covered = once && read < 8 && (word < 2 || (word == 2 && (bit < 24 || bit > 29)));
       ASSERT_FALSE(covered && safe) << "read " << read << ", bit " << bit;
       ASSERT_TRUE(!safe || rig.was_at(safe->position, 20)) << "read " << read << ", bit " << bit;
     }
