@@ -29,7 +29,7 @@ SOCS = {"wishbone": ("mb4", "wishbone", "mb4_wb", "single", "litex_bench.v", 0x4
         "dsl": ("dsl", "axi-lite", "dsl_axil", None, "litex_dsl_bench.v", 0x454E4305)}
 FEATURES = {"axi": 0x10201,   # one channel, a request clears the valid flag, the page
             "clb": 1,      # the watchdog
-            "dsl": 0x126}  # one line, tracking, strict code, recovery
+            "dsl": 0x127}  # one line, tracking, strict code, recovery, messages
 # Of the plain Verilog, as soc.py has them for the RTL.
 PARAMETERS = {"axi": {"EXTRAS": 1}}
 # Of the device, as black boxes.
