@@ -17,7 +17,7 @@ set_max_delay -datapath_only -from [get_cells -hierarchical -filter {NAME =~ *u_
 set_max_delay -datapath_only -from [get_cells -hierarchical -filter {NAME =~ *u_bridge/gen_cross*ack_q* || NAME =~ *u_core/u_regs/word_q*}] -to [get_clocks host] $host_period
 
 # `irq_o` of `dsl_axil`
-set_max_delay -datapath_only -from [get_cells -hierarchical -filter {NAME =~ *u_core/u_regs/u_irq/*}] -to [get_clocks host] $host_period
+set_max_delay -datapath_only -from [get_cells -hierarchical -filter {NAME =~ *u_core/u_events/enable_q* || NAME =~ *u_core/u_events/status_q*}] -to [get_clocks host] $host_period
 
 # `s_axi_aresetn`, `rst_ni` of `dsl_axil`
 set_false_path -from [get_ports {s_axi_aresetn}] -to [get_clocks host]

@@ -19,8 +19,8 @@ set_max_delay -from [get_registers {*u_bridge|*gen_cross*ack_q* *u_core|*u_regs|
 set_false_path -hold -from [get_registers {*u_bridge|*gen_cross*ack_q* *u_core|*u_regs|word_q*}] -to [get_clocks host]
 
 # `irq_o` of `dsl_axil`
-set_max_delay -from [get_registers {*u_core|*u_regs|*u_irq|*}] -to [get_clocks host] $host_period
-set_false_path -hold -from [get_registers {*u_core|*u_regs|*u_irq|*}] -to [get_clocks host]
+set_max_delay -from [get_registers {*u_core|*u_events|enable_q* *u_core|*u_events|status_q*}] -to [get_clocks host] $host_period
+set_false_path -hold -from [get_registers {*u_core|*u_events|enable_q* *u_core|*u_events|status_q*}] -to [get_clocks host]
 
 # `s_axi_aresetn`, `rst_ni` of `dsl_axil`
 set_false_path -from [get_ports {s_axi_aresetn}] -to [get_clocks host]
