@@ -35,6 +35,13 @@ static inline uint64_t hdsl_bytes(HDSL_Handle handle, uint8_t address, unsigned 
   return value;
 }
 
+static inline uint8_t hdsl_byte(HDSL_Handle handle, uint8_t address) {
+  return (uint8_t)hdsl_bytes(handle, address, 1);
+}
+static inline uint16_t hdsl_two_bytes(HDSL_Handle handle, uint8_t address) {
+  return (uint16_t)hdsl_bytes(handle, address, 2);
+}
+
 static inline int32_t hdsl_status(dsl_result result) { return -(int32_t)result.error; }
 
 /* position_id: 0 fast, 1 safe 1, 2 safe 2. 40 bits. */
@@ -47,43 +54,43 @@ static inline uint64_t HDSL_get_pos(HDSL_Handle handle, int position_id) {
   }
 }
 static inline uint8_t HDSL_get_qm(HDSL_Handle handle) {
-  return (uint8_t)(hdsl_bytes(handle, DSL_ADDR_MASTER_QM, 1) & 0xFU);
+  return (uint8_t)(hdsl_byte(handle, DSL_ADDR_MASTER_QM) & 0xFU);
 }
 static inline uint8_t HDSL_get_master_qm(HDSL_Handle handle) {
-  return (uint8_t)hdsl_bytes(handle, DSL_ADDR_MASTER_QM, 1);
+  return hdsl_byte(handle, DSL_ADDR_MASTER_QM);
 }
 static inline uint16_t HDSL_get_events(HDSL_Handle handle) {
-  return (uint16_t)hdsl_bytes(handle, DSL_ADDR_EVENT_H, 2);
+  return hdsl_two_bytes(handle, DSL_ADDR_EVENT_H);
 }
 static inline uint8_t HDSL_get_safe_events(HDSL_Handle handle) {
-  return (uint8_t)hdsl_bytes(handle, DSL_ADDR_EVENT_S, 1);
+  return hdsl_byte(handle, DSL_ADDR_EVENT_S);
 }
 static inline uint16_t HDSL_get_online_status_d(HDSL_Handle handle) {
-  return (uint16_t)hdsl_bytes(handle, DSL_ADDR_ONLINE_D_H, 2);
+  return hdsl_two_bytes(handle, DSL_ADDR_ONLINE_D_H);
 }
 static inline uint16_t HDSL_get_online_status_1(HDSL_Handle handle) {
-  return (uint16_t)hdsl_bytes(handle, DSL_ADDR_ONLINE_1_H, 2);
+  return hdsl_two_bytes(handle, DSL_ADDR_ONLINE_1_H);
 }
 static inline uint16_t HDSL_get_online_status_2(HDSL_Handle handle) {
-  return (uint16_t)hdsl_bytes(handle, DSL_ADDR_ONLINE_2_H, 2);
+  return hdsl_two_bytes(handle, DSL_ADDR_ONLINE_2_H);
 }
 static inline uint8_t HDSL_get_sum(HDSL_Handle handle) {
-  return (uint8_t)hdsl_bytes(handle, DSL_ADDR_SUMMARY, 1);
+  return hdsl_byte(handle, DSL_ADDR_SUMMARY);
 }
 static inline uint8_t HDSL_get_acc_err_cnt(HDSL_Handle handle) {
-  return (uint8_t)hdsl_bytes(handle, DSL_ADDR_ACC_ERR_CNT, 1);
+  return hdsl_byte(handle, DSL_ADDR_ACC_ERR_CNT);
 }
 static inline uint8_t HDSL_get_rssi(HDSL_Handle handle) {
-  return (uint8_t)(hdsl_bytes(handle, DSL_ADDR_DELAY, 1) >> 4 & 0xFU);
+  return (uint8_t)(hdsl_byte(handle, DSL_ADDR_DELAY) >> 4 & 0xFU);
 }
 static inline uint8_t HDSL_get_delay(HDSL_Handle handle) {
-  return (uint8_t)(hdsl_bytes(handle, DSL_ADDR_DELAY, 1) & 0xFU);
+  return (uint8_t)(hdsl_byte(handle, DSL_ADDR_DELAY) & 0xFU);
 }
 static inline uint8_t HDSL_get_edges(HDSL_Handle handle) {
-  return (uint8_t)hdsl_bytes(handle, DSL_ADDR_EDGES, 1);
+  return hdsl_byte(handle, DSL_ADDR_EDGES);
 }
 static inline uint8_t HDSL_get_sync_ctrl(HDSL_Handle handle) {
-  return (uint8_t)hdsl_bytes(handle, DSL_ADDR_SYNC_CTRL, 1);
+  return hdsl_byte(handle, DSL_ADDR_SYNC_CTRL);
 }
 static inline int32_t HDSL_set_sync_ctrl(HDSL_Handle handle, uint8_t value) {
   return hdsl_status(dsl_write_byte(handle, DSL_ADDR_SYNC_CTRL, value));
@@ -92,7 +99,7 @@ static inline int32_t HDSL_set_sync_ctrl(HDSL_Handle handle, uint8_t value) {
 static inline uint8_t HDSL_get_enc_id(HDSL_Handle handle, int byte) {
   return byte < 0 || byte > 2
              ? (uint8_t)0xFF
-             : (uint8_t)hdsl_bytes(handle, (uint8_t)(DSL_ADDR_ENC_ID0 - (uint8_t)byte), 1);
+             : hdsl_byte(handle, (uint8_t)(DSL_ADDR_ENC_ID0 - (uint8_t)byte));
 }
 
 /* Messages. The buffer of a long message: 0 to 7. */
@@ -103,7 +110,7 @@ static inline int32_t HDSL_write_pc_buffer(HDSL_Handle handle, uint8_t offset, u
 }
 static inline uint8_t HDSL_read_pc_buffer(HDSL_Handle handle, uint8_t offset) {
   return offset > 7 ? (uint8_t)0xFF
-                    : (uint8_t)hdsl_bytes(handle, (uint8_t)(DSL_ADDR_PC_BUFFER0 + offset), 1);
+                    : hdsl_byte(handle, (uint8_t)(DSL_ADDR_PC_BUFFER0 + offset));
 }
 static inline int32_t HDSL_set_pc_addr(HDSL_Handle handle, uint8_t address_h, uint8_t address_l,
                                        uint8_t offset_h, uint8_t offset_l) {

@@ -41,7 +41,6 @@ module dsl_events (
   output logic                   irq_o
 );
 
-  localparam logic [2:0] LAST_PLACE    = 3'd7;
   localparam logic [5:0] SUMMARY_PLACE = 6'd37;   // in the record
   localparam logic [5:0] STATUS2_PLACE = 6'd45;
 
@@ -149,7 +148,7 @@ module dsl_events (
       linked_q <= linked;
       if (answer_i.ends && answer_i.running) begin
         frame_q    <= 1'b1;
-        vertical_q <= answer_i.place == LAST_PLACE;
+        vertical_q <= answer_i.place == dsl_pkg::LAST_PLACE;
       end else if (tell_i) begin
         frame_q <= 1'b0;
       end
@@ -200,8 +199,17 @@ module dsl_events (
   assign causes_o.frame      = ready;
   assign causes_o.safe_event = safe && !safe_q;
   // A frame that ends while its bit is still set sets FRAME_LOST.
-  assign causes = {causes_o.safe2, causes_o.safe1, ready && status_q[0], causes_o.safe_event,
-                   causes_o.main_event, falls, ready};
+  always_comb begin
+    causes = '0;
+    causes[dsl_page_regs_pkg::SAFE2_READY_LSB] = causes_o.safe2;
+    causes[dsl_page_regs_pkg::SAFE1_READY_LSB] = causes_o.safe1;
+    causes[dsl_page_regs_pkg::FRAME_LOST_LSB]  = ready
+                                               && status_q[dsl_page_regs_pkg::FRAME_ENDED_LSB];
+    causes[dsl_page_regs_pkg::SAFE_EVENT_LSB]  = causes_o.safe_event;
+    causes[dsl_page_regs_pkg::EVENT_LSB]       = causes_o.main_event;
+    causes[dsl_page_regs_pkg::LINK_LOST_LSB]   = falls;
+    causes[dsl_page_regs_pkg::FRAME_ENDED_LSB] = ready;
+  end
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin

@@ -50,7 +50,6 @@ module dsl_judge (
   localparam logic [2:0] HIGH_WORD  = 3'd3;      // of the acceleration
   localparam logic [2:0] LOW_WORD   = 3'd4;
   localparam logic [2:0] SECONDARY  = 3'd5;
-  localparam logic [2:0] LAST_PLACE = 3'd7;
   localparam logic [7:0] MARKER1    = 8'hFD;     // the encoder has no position
   localparam logic [7:0] MARKER2    = 8'hFB;     // ... no second safe position
   localparam logic [4:0] K28        = 5'd28;
@@ -79,7 +78,7 @@ module dsl_judge (
   );
 
   assign vsync = word_q.data[7];
-  assign last  = place_i == LAST_PLACE;
+  assign last  = place_i == dsl_pkg::LAST_PLACE;
   assign k28   = word_q.data[4:0] == K28;
 
   always_comb begin

@@ -4,7 +4,6 @@
 // Messages on the parameter channel, a nibble a frame: short ones of two hosts and long ones. It
 // keeps the bytes of requests and answers, and other bytes of the host, in one memory.
 //
-//
 // Clock domain: core. symbol_o is that of the frame from the clock behind begin_i on. An S_PAR is
 // worked on within 40 clocks, an answer within 120; clocks with an access of the host do not count.
 // What events_o says is complete then, with all bytes of the answer in the memory.
@@ -47,7 +46,6 @@ module dsl_message (
 );
 
   localparam logic [2:0] PARAMETER  = 3'd1;
-  localparam logic [2:0] LAST_PLACE = 3'd7;
   localparam logic [6:0] WAIT_LAST  = 7'd63;    // frames
   localparam logic [6:0] PAUSE_LAST = 7'd62;    // ... behind the end of a short message
 
@@ -114,7 +112,7 @@ module dsl_message (
   assign running    = answer_i.running && answer_i.linked;
   assign rises      = running && !ran_q;
   assign over       = !running && ran_q;
-  assign runs       = running && (ready_q || answer_i.place == LAST_PLACE);
+  assign runs       = running && (ready_q || answer_i.place == dsl_pkg::LAST_PLACE);
   assign shorts     = main_q || safe_q;
   assign due        = nak_q || wait_q[6] || wait_q == WAIT_LAST;
   assign free       = begin_i && runs && !send_q && !select_q && !resets_q;
@@ -260,7 +258,7 @@ module dsl_message (
       {ready_q, ran_q, parameter_q} <= '0;
     end else begin
       ran_q       <= running;
-      ready_q     <= running && (ready_q || (begin_i && answer_i.place == LAST_PLACE));
+      ready_q     <= running && (ready_q || (begin_i && answer_i.place == dsl_pkg::LAST_PLACE));
       parameter_q <= (parameter_q && !takes)
                   || (answer_i.valid && answer_i.number == PARAMETER && running);
       // Requests.

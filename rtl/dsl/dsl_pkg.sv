@@ -19,6 +19,7 @@ package dsl_pkg;
   localparam logic [9:0] LAST_SAMPLE = 10'd575;  // of the window that is looked at: 72 slots
   localparam logic [3:0] MIN_DELAY   = 4'd1;     // whole bits that an answer may come late
   localparam logic [3:0] MAX_DELAY   = 4'd11;
+  localparam logic [2:0] LAST_PLACE  = 3'd7;     // of a frame in its vertical frame
 
   // What the encoder sends while the line is trained, the first bit highest.
   localparam logic [60:0] TEST_PATTERN =

@@ -56,7 +56,6 @@ module dsl_position (
   localparam logic [2:0] LOW_WORD   = 3'd4;
   localparam logic [2:0] SECONDARY  = 3'd5;
   localparam logic [2:0] FIRST_PLACE = 3'd0;
-  localparam logic [2:0] LAST_PLACE = 3'd7;
   localparam int unsigned SIGNED    = 10;    // bit of the identity
 
   // Rows.
@@ -310,9 +309,9 @@ module dsl_position (
       ran_q   <= frame_q || (ran_q && !tell_o);
       shown_q <= answer_i.linked || frame_q || (shown_q && !(tell_o && jump.unused[0]));
       // told_i is right a clock later.
-      ended_q <= answer_i.ends && answer_i.running && answer_i.place == LAST_PLACE;
+      ended_q <= answer_i.ends && answer_i.running && answer_i.place == dsl_pkg::LAST_PLACE;
       if (answer_i.ends) begin
-        vertical_q <= answer_i.running && answer_i.place == LAST_PLACE;
+        vertical_q <= answer_i.running && answer_i.place == dsl_pkg::LAST_PLACE;
         check_q    <= answer_i.running && answer_i.place == FIRST_PLACE;
       end
       if (ended_q || answer_i.begins)               unlike_q <= 1'b0;

@@ -40,7 +40,6 @@ module dsl_vertical (
   localparam logic [2:0] SECONDARY   = 3'd5;
   localparam logic [2:0] FIRST_PLACE = 3'd0;
   localparam logic [2:0] CRC_PLACE   = 3'd6;
-  localparam logic [2:0] LAST_PLACE  = 3'd7;
   localparam logic [2:0] CRC5_BIT    = 3'd3;  // of the low word: the first bit of its CRC
   localparam logic [7:0] POLY5       = 8'h05;
   localparam logic [2:0] POLY5_LAST  = 3'd4;
@@ -91,7 +90,7 @@ module dsl_vertical (
   logic       safe1_valid_q, safe2_valid_q;   // told_o
 
   assign first        = answer_i.place == FIRST_PLACE;
-  assign last         = answer_i.place == LAST_PLACE;
+  assign last         = answer_i.place == dsl_pkg::LAST_PLACE;
   assign vertical     = answer_i.number == VERTICAL;
   assign acceleration = answer_i.number == HIGH_WORD || answer_i.number == LOW_WORD;
   assign secondary    = answer_i.number == SECONDARY;

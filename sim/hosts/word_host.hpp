@@ -33,6 +33,17 @@ class StreamSink {
   ~StreamSink() = default;
 };
 
+// The access that writes one byte.
+struct ByteWrite {
+  constexpr ByteWrite(std::uint32_t at, std::uint8_t byte)
+      : address(at & ~std::uint32_t{3}),
+        data(std::uint32_t{byte} << 8U * (at & 3U)),
+        strobe(static_cast<std::uint8_t>(1U << (at & 3U))) {}
+  std::uint32_t address;
+  std::uint32_t data;
+  std::uint8_t strobe;
+};
+
 class WordHost : public HostModel {
  public:
   // One access at a byte address, which is a multiple of 4 and not above last_address(). It lets

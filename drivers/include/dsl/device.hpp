@@ -30,6 +30,12 @@
 
 namespace dsl {
 
+// Polls that `limit_us` may hold, so that a clock that stands still ends a wait too: an access
+// takes longer than a sixteenth of 1 us.
+[[nodiscard]] constexpr std::uint64_t most_polls(std::uint32_t limit_us) {
+  return std::uint64_t{limit_us} * 16U + 1U;
+}
+
 // The fast position at the sample of one frame. Nothing on the bus protects it: no CRC covers these
 // words (docs/dsl.md, "Driver", names the bits).
 struct Position {
@@ -92,15 +98,14 @@ class Device {
     if (!certain(status)) return false;
     std::uint32_t id = 0;
     if (!read(word_of(regs::kAddrEncId2), id)) return Error::kBus;
-    encoder_ = encoder_of((id >> 8U & 0xFU) << 16U | (id >> 16U & 0xFFU) << 8U | id >> 24U);
+    encoder_ = encoder_of(byte_of(id, regs::kAddrEncId1), byte_of(id, regs::kAddrEncId0));
     return true;
   }
   // Waits for linked(), `limit_us` (up to 2^31) at most. `Clock`: enc/bus.hpp. kBus, kTimeout.
   template <typename Clock>
   Result<Encoder> wait_for_link(Clock& clock, std::uint32_t limit_us) {
     const std::uint32_t begin = clock.now_us();
-    // A clock that stands still ends it too: an access takes longer than a sixteenth of 1 us.
-    for (std::uint64_t polls = 0; polls <= std::uint64_t{limit_us} * 16U; ++polls) {
+    for (std::uint64_t left = most_polls(limit_us); left != 0; --left) {
       const Result<bool> now = linked();
       if (!now) return now.failure();
       if (*now) return encoder_;
@@ -113,7 +118,7 @@ class Device {
 
   // ---- position ----
   // The position of the last frame, for an interrupt: five accesses. kBus, kNoLink, kUncertain;
-  // then `now` is as before. It makes no copy: 25 instructions of a
+  // then `now` is as before. It makes no copy: 25 instructions of a Cortex-M0+.
   [[nodiscard]] Error read_position(Position& now) {
     std::uint32_t low = 0, high = 0, speed = 0, frame = 0, status = 0;
     if (!read(page::kAddrPosLo, low) || !read(page::kAddrPosHi, high) ||
@@ -163,10 +168,11 @@ class Device {
       return Error::kBus;
     }
     Quality now;
-    now.quality = static_cast<std::uint8_t>(monitor >> 24U & regs::QM::kMask);
-    now.edges = static_cast<std::uint8_t>(edges >> 8U);
-    now.rssi = static_cast<std::uint8_t>(edges >> 20U & 0xFU);
-    now.delay_bits = static_cast<std::uint8_t>(edges >> 16U & 0xFU);
+    const std::uint8_t line = byte_of(edges, regs::kAddrDelay);
+    now.quality = regs::QM::get(byte_of(monitor, regs::kAddrMasterQm));
+    now.edges = byte_of(edges, regs::kAddrEdges);
+    now.rssi = regs::RSSI::get(line);
+    now.delay_bits = regs::DELAY::get(line);
     now.restart_reason = static_cast<std::uint8_t>(page::RESTART_REASON::get(status));
     now.restarts = static_cast<std::uint16_t>(page::NUM_RESETS::get(restarts));
     now.illegal_words = static_cast<std::uint16_t>(page::CODE_ILLEGAL::get(restarts));
@@ -178,9 +184,9 @@ class Device {
     if (!read(regs::kAddrEventH, now) || !read(word_of(regs::kAddrEventS), of_safe_host))
       return Error::kBus;
     Events events;
-    events.high = static_cast<std::uint8_t>(now & 0xFFU);
-    events.low = static_cast<std::uint8_t>(now >> 8U & kLowEvents);
-    events.safe = static_cast<std::uint8_t>(of_safe_host >> 8U & kSafeEvents);
+    events.high = byte_of(now, regs::kAddrEventH);
+    events.low = byte_of(now, regs::kAddrEventL) & kLowEvents;
+    events.safe = byte_of(of_safe_host, regs::kAddrEventS) & kSafeEvents;
     const bool done = write(regs::kAddrEventH, ~events.high) &&
                       write(regs::kAddrEventL, ~events.low) &&
                       write(regs::kAddrEventS, ~events.safe);
@@ -223,8 +229,8 @@ class Device {
 
  private:
   static constexpr std::uint8_t kAllInterrupts = 0x7F;
-  static constexpr std::uint32_t kLowEvents = regs::QMLW::kMask;
-  static constexpr std::uint32_t kSafeEvents =
+  static constexpr std::uint8_t kLowEvents = regs::QMLW::kMask;
+  static constexpr std::uint8_t kSafeEvents =
       0xFFU & ~std::uint32_t{regs::S_MIN::kMask | regs::S_FRES::kMask};
 
   bool set_control(std::uint32_t bits) {

@@ -199,7 +199,7 @@ class Messages {
     const std::uint32_t high = (request.write ? 0U : std::uint32_t{regs::LRW::kMask}) |
                                (request.offset != 0 ? std::uint32_t{regs::LOFF::kMask} : 0U) |
                                (request.indirect ? std::uint32_t{regs::LIND::kMask} : 0U) |
-                               length << 2U | std::uint32_t{request.resource} >> 8U;
+                               regs::LLEN::of(length) | std::uint32_t{request.resource} >> 8U;
     return device_.write(regs::kAddrPcAddH, high) &&
            device_.write(regs::kAddrPcAddL, request.resource) &&
            device_.write(regs::kAddrPcOffH, std::uint32_t{request.offset} >> 8U) &&
@@ -231,11 +231,10 @@ class Messages {
     message.runs = false;
     return reset() ? Error::kTimeout : Error::kBus;
   }
-  // Polls until the message ends. A clock that stands still ends it too: an access takes longer
-  // than a sixteenth of 1 us.
+  // Polls until the message ends.
   template <typename Poll>
   auto finish(Poll poll, std::uint32_t limit_us) -> decltype(poll()) {
-    for (std::uint64_t polls = 0; polls <= std::uint64_t{limit_us} * 16U; ++polls) {
+    for (std::uint64_t left = most_polls(limit_us); left != 0; --left) {
       const auto now = poll();
       if (now || now.error() != Error::kBusy) return now;
     }

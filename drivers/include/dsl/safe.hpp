@@ -16,6 +16,7 @@
 
 #include "dsl/error.hpp"
 #include "dsl_page_regs.hpp"
+#include "dsl_regs.hpp"
 #include "enc/crc.hpp"
 
 namespace dsl {
@@ -27,12 +28,16 @@ struct Encoder {
   bool is_signed = false;
 };
 
-// ENC_ID, 20 bits.
-[[nodiscard]] constexpr Encoder encoder_of(std::uint32_t id) {
+// The lower two bytes of ENC_ID.
+[[nodiscard]] constexpr Encoder encoder_of(std::uint8_t id1, std::uint8_t id0) {
+  constexpr unsigned kLeast = 8;  // bits of an acceleration
+  const unsigned acceleration = regs::ENC_ACC::get(id0) + kLeast;
+  const unsigned more = unsigned{regs::ENC_WIDTH_H::get(id1)} << regs::ENC_WIDTH_L::kWidth |
+                        regs::ENC_WIDTH_L::get(id0);
   Encoder encoder;
-  encoder.acceleration_bits = static_cast<std::uint8_t>((id & 0xFU) + 8U);
-  encoder.position_bits = static_cast<std::uint8_t>((id >> 4U & 0x3FU) + encoder.acceleration_bits);
-  encoder.is_signed = (id >> 10U & 1U) != 0;
+  encoder.acceleration_bits = static_cast<std::uint8_t>(acceleration);
+  encoder.position_bits = static_cast<std::uint8_t>(acceleration + more);
+  encoder.is_signed = regs::ENC_SIGNED::get(id1) != 0;
   return encoder;
 }
 
@@ -66,23 +71,31 @@ struct SafePosition {
 
 namespace detail {
 
+// Both channels have the same places; the names here are those of the first one.
+static_assert(page::SAFE1_HI::kMask == page::SAFE2_HI::kMask &&
+              page::SAFE1_GOOD::kMask == page::SAFE2_GOOD::kMask &&
+              page::SAFE1_SCE::kMask == page::SAFE2_SCE::kMask &&
+              page::SAFE1_SUMMARY::kMask == page::SAFE2_STATUS2::kMask &&
+              page::SAFE1_CRC::kMask == page::SAFE2_CRC::kMask);
+
 // Bits 39 to 32, 31 to 0.
 [[nodiscard]] constexpr std::uint64_t safe_bits(const SafeWords& words) {
-  return std::uint64_t{words.high & 0xFFU} << 32U | words.low;
+  return std::uint64_t{page::SAFE1_HI::get(words.high)} << 32U | words.low;
 }
 
 // The CRC of a vertical frame covers the state byte and the five bytes of the position; its low
 // byte is sent inverted.
 [[nodiscard]] constexpr bool crc_fits(const SafeWords& words) {
   constexpr std::uint32_t kPolynomial = 0x190D9;
-  const std::uint64_t state = words.check >> 16U & 0xFFU;
+  const std::uint64_t state = page::SAFE1_SUMMARY::get(words.check);
   const std::uint16_t crc = enc::crc(kPolynomial, 0, state << 40U | safe_bits(words), 48);
-  return (crc ^ 0x00FFU) == (words.check & 0xFFFFU);
+  return (crc ^ 0x00FFU) == page::SAFE1_CRC::get(words.check);
 }
 
-// Good and without an error, as the master says. Both channels have the same places.
+// Good and without an error, as the master says.
 [[nodiscard]] constexpr bool is_good(const SafeWords& words) {
-  return (words.check >> 30U & 3U) == 2U && (words.high >> 8U) == 0;
+  return page::SAFE1_GOOD::get(words.check) != 0 && page::SAFE1_SCE::get(words.check) == 0 &&
+         (words.high & ~page::SAFE1_HI::kMask) == 0;
 }
 
 // Whether the channels tell the same position. Channel 2 is the inverse of the upper bits.
@@ -115,7 +128,7 @@ namespace detail {
     return Error::kSafeOld;
   }
   if (!detail::crc_fits(first) || !detail::crc_fits(second)) return Error::kSafeCrc;
-  const std::uint32_t status2 = second.check >> 16U & 0xFFU;
+  const std::uint32_t status2 = page::SAFE2_STATUS2::get(second.check);
   if ((status2 & ~kToggle2) != kFix2 || (states & rules.bad_states) != 0) return Error::kSafeState;
   const std::uint64_t bits = detail::safe_bits(first);
   if (rules.bits2 != 0 && !detail::agree(bits, detail::safe_bits(second), encoder, rules))
@@ -124,7 +137,7 @@ namespace detail {
   SafePosition safe;
   safe.position = encoder.is_signed ? static_cast<std::int64_t>(bits << kAbove) >> kAbove
                                     : static_cast<std::int64_t>(bits);
-  safe.summary = static_cast<std::uint8_t>(first.check >> 16U);
+  safe.summary = static_cast<std::uint8_t>(page::SAFE1_SUMMARY::get(first.check));
   safe.toggle = (status2 & kToggle2) != 0;
   safe.age = first.age;
   return safe;

@@ -63,9 +63,8 @@ class DslBus {
   }
   bool write(std::uint32_t offset, std::uint8_t byte) {
     if (fault.fails == accesses_++) return false;
-    const unsigned lane = offset % 4;
-    return bus_->write(offset - lane, std::uint32_t{byte} << 8 * lane,
-                       static_cast<std::uint8_t>(1U << lane)) == std::uint8_t{0};
+    const mb4::sim::ByteWrite one(offset, byte);
+    return bus_->write(one.address, one.data, one.strobe) == std::uint8_t{0};
   }
   std::uint32_t now_us() const {
     return clock_stands ? 7 : static_cast<std::uint32_t>(simulator_.now() / mb4::sim::kPsPerUs);

@@ -66,10 +66,8 @@ class RtlHost {
                 },
             .write =
                 [this](unsigned address, std::uint8_t data) {
-                  const unsigned lane = address & 3U;
-                  const auto strobes = static_cast<std::uint8_t>(1U << lane);
-                  EXPECT_EQ(bus_->write(address & ~3U, std::uint32_t{data} << 8 * lane, strobes),
-                            std::uint8_t{0})
+                  const sim::ByteWrite one(address, data);
+                  EXPECT_EQ(bus_->write(one.address, one.data, one.strobe), std::uint8_t{0})
                       << address;
                 }};
   }

@@ -435,14 +435,6 @@ inline Result<void> Procedures::take_access_restart(ChipState& chip, Operation& 
   return done;
 }
 
-[[nodiscard]] inline bool is_zero(const std::uint8_t* bytes, std::size_t size) {
-  unsigned any = 0;
-  for (std::size_t i = 0; i < size; ++i) {
-    any |= bytes[i];
-  }
-  return any == 0;
-}
-
 // A part of RDATA or IDS was written.
 inline void Procedures::take_data(ChipState& chip, Operation& op) {
   // If the bytes are in SCDATAx, a word that waits may be no word of the encoder, although its CRC

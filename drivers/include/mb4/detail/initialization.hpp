@@ -231,11 +231,8 @@ inline Result<void> Procedures::initialize_activate_step(ChipState& chip, Operat
 [[nodiscard]] inline bool is_blank(const mb4_word& word, const std::uint8_t* bytes) {
   const unsigned high = word.crc_bits > 8 ? unsigned{bytes[6]} : 0xFFU;
   const unsigned crc = word.crc_bits > 8 ? bytes[7] * 256U + high : unsigned{bytes[7]};
-  unsigned data = word.crc_bits == 0 || crc == (1U << word.crc_bits) - 1U ? 0 : 1;
-  for (unsigned i = 0; i * 8 < word.bits; ++i) {
-    data |= bytes[i];
-  }
-  return data == 0;
+  return (word.crc_bits == 0 || crc == (1U << word.crc_bits) - 1U) &&
+         is_zero(bytes, (word.bits + 7U) / 8U);
 }
 
 // Where there are actuators no frame is made: it would send words that nobody has written.

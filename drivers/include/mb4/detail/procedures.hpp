@@ -22,6 +22,14 @@
 
 namespace mb4::detail {
 
+[[nodiscard]] inline bool is_zero(const std::uint8_t* bytes, unsigned size) {
+  unsigned any = 0;
+  for (; size > 0; --size) {
+    any |= *bytes++;
+  }
+  return any == 0;
+}
+
 // A procedure consists of a function that plans its first frames, and of its step, which looks at
 // what came back, adds the frames of the next step, and returns success or an error. It ends when
 // it adds no frame. A program has only the procedures that it begins. The blocking calls are loops

@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "dsl_page_regs.hpp"
+#include "sim/hosts/word_host.hpp"
 #include "sim/masters/dsl_model/dsl_master.hpp"
 #include "sim/scenario/scenario.hpp"
 #include "word_port.hpp"
@@ -53,8 +54,8 @@ DslBytes bytes_of_registers(sim::Simulator& simulator) {
               },
           .write =
               [=](unsigned address, std::uint8_t data) {
-                check(port->write(address - lane(address), std::uint32_t{data} << 8 * lane(address),
-                                  byte(1U << lane(address))));
+                const sim::ByteWrite one(address, data);
+                check(port->write(one.address, one.data, one.strobe));
               }};
 }
 
