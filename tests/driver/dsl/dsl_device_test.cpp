@@ -215,6 +215,32 @@ TEST(DslDriver, Safe_EachFaultHasItsError) {
   EXPECT_EQ(errors, (std::set<Error>{Error::kNone, Error::kSafeOld}));
 }
 
+// Words of a bus that is slow: the two positions are the same, their vertical frames are not.
+TEST(DslDriver, Safe_ChannelsOfTwoVerticalFrames_AreOld) {
+  const auto words = [](std::uint64_t position, std::uint8_t state, std::uint32_t age) {
+    const std::uint64_t covered = std::uint64_t{state} << 40U | position;
+    dsl::SafeWords made;
+    made.low = static_cast<std::uint32_t>(position);
+    made.high = static_cast<std::uint32_t>(position >> 32U);
+    made.check = page::SAFE1_GOOD::kMask | std::uint32_t{state} << 16U |
+                 (enc::crc(0x190D9, 0, covered, 48) ^ 0x00FFU);
+    made.age = age;
+    return made;
+  };
+  constexpr std::uint64_t kMask = (std::uint64_t{1} << 40) - 1;
+  const dsl::Encoder encoder{mb4test::kDslBits, 11, true};
+  const auto judged = [&](std::uint32_t first, std::uint32_t second) {
+    return dsl::check_safe(words(77, 0, first), words(~std::uint64_t{77} & kMask, 0x1C, second), 0,
+                           encoder, kRules)
+        .error();
+  };
+  EXPECT_EQ(judged(3, 3), Error::kNone);
+  EXPECT_EQ(judged(3, 10), Error::kNone);  // the bus took seven frames
+  EXPECT_EQ(judged(3, 2), Error::kSafeOld);
+  EXPECT_EQ(judged(3, 11), Error::kSafeOld);
+  EXPECT_EQ(judged(17, 17), Error::kSafeOld);
+}
+
 TEST(DslDriver, NarrowSecondPosition_IsComparedByItsBits) {
   DslRig rig("safe2_bits = 20\n");
   rig.link();
