@@ -122,8 +122,9 @@ static_assert(page::SAFE1_HI::kMask == page::SAFE2_HI::kMask &&
   constexpr std::uint32_t kFix2 = 0x1C;  // of the other bits; TEST2 and ERR2 are 0
   constexpr std::uint32_t kFrames = 8;   // of a vertical frame
   if (!detail::is_good(first) || !detail::is_good(second)) return Error::kNoSafe;
-  // Both came with the same vertical frame, and channel 2 was read later.
-  if (first.age > rules.max_age || second.age > rules.max_age || second.age < first.age ||
+  // Both came with the same vertical frame, and channel 2 was read later: modulo 2^32, a younger
+  // one is far away.
+  if (first.age > rules.max_age || second.age > rules.max_age ||
       second.age - first.age >= kFrames) {
     return Error::kSafeOld;
   }
