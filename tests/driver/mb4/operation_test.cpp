@@ -1013,10 +1013,11 @@ TEST_F(Access, Write64_GoesInParts) {
   };
   // All are written before the first one is read back: one wrong bit of an address leads into
   // another part.
+  // The first part may reach the SCDATA of the one sensor.
   for (std::size_t at = 0; at < 64; at += 8) {
-    EXPECT_FALSE(step({join({{0x02, static_cast<std::uint8_t>(0x80 + at)}, part(at)}),
-                       join({{0x03, static_cast<std::uint8_t>(at)}, Bytes(8, 0x01)})},
-                      {zeros(10)}));
+    std::vector<Bytes> frames{join({{0x02, static_cast<std::uint8_t>(0x80 + at)}, part(at)})};
+    if (at == 0) frames.push_back(join({{0x03, 0x00}, Bytes(8, 0x01)}));
+    EXPECT_FALSE(step(frames, {join({{0, 0, 0x34}, zeros(7)})}));
   }
   Bytes chip = join({mb4test::read_back(), zeros(10)});
   chip[0xE7 - 0xC0] = 0x00;  // NOCRC = 0
@@ -1155,7 +1156,7 @@ class Doubt : public OperationTest {
   bool write(std::uint8_t data, std::uint8_t slave, const Bytes& behind) {
     data_ = data;
     EXPECT_TRUE(device.control().plan_write(op, {1, 0}, 0x50, {&data_, 1}).ok());
-    const std::uint8_t word = data == 0 ? 0x34 : 0x00;  // in SCDATA1
+    constexpr std::uint8_t word = 0x34;  // in SCDATA1
     EXPECT_FALSE(step({{0x02, 0x80, data}, {0x03, 0x00, 0x01}}, {{0, 0, word}}));
     return step({{0x03, 0x80, 0x00}, {0x03, 0xC0, 0x00}, kReadWitness},
                 {{0, 0, data}, {0, 0, slave}, behind});

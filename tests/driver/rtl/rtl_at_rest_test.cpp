@@ -112,6 +112,15 @@ class DriverAtRest : public testing::TestWithParam<Case> {
     chip.simulator.advance((kPeriodUs + 5) * mb4::sim::kPsPerUs);
     return chip.device.automatic().poll_slave(1);
   }
+  // A write or a command in front of the first frame has seen a word that is 0, and with kFull
+  // that may be a look that became a write: the first read drops what waits.
+  static void expect_first_read(FaultyChip& chip) {
+    const Before before = GetParam().before;
+    const bool drops =
+        GetParam().check >= SpiCheck::kFull &&
+        (before == Before::kWrite || before == Before::kCommand || before == Before::kFailed);
+    EXPECT_EQ(read(chip).error(), drops ? Error::kNoData : Error::kNone);
+  }
   static const mb4::sim::ControlSlave& slave(FaultyChip& chip) {
     return *clocked(chip.simulator.slave(1))->control();
   }
@@ -122,7 +131,7 @@ TEST_P(DriverAtRest, OneFlippedBitOfARead_StartsNothingThatHarms) {
   {
     FaultyChip chip(kEncoder);
     prepare(chip);
-    ASSERT_TRUE(read(chip).ok());
+    expect_first_read(chip);
     chip.simulator.advance(kPeriodUs * mb4::sim::kPsPerUs);
     chip.bus.plan({});
     ASSERT_TRUE(read(chip).ok());
@@ -133,7 +142,7 @@ TEST_P(DriverAtRest, OneFlippedBitOfARead_StartsNothingThatHarms) {
     SCOPED_TRACE(fault.text());
     FaultyChip chip(kEncoder);
     prepare(chip);
-    ASSERT_TRUE(read(chip).ok());
+    expect_first_read(chip);
     const bool beside = GetParam().before == Before::kBeside;
     const mb4::sim::ControlCounters before = slave(chip).counters();
     chip.bus.plan(fault);
