@@ -380,6 +380,58 @@ TEST(DriverBus, GuardOfAWriteIsAWrite_NoForeignPosition) {
   }
 }
 
+// The readings of RDATA in an access become writes of their own bytes in turn (0x03 and 0x0B). The
+// right answer is 0 too, so that the call itself sees nothing. The word of the encoder is such that
+// its CRC fits a word with these bytes.
+TEST(DriverBus, ReadingOfZerosIsAWrite_NoForeignPosition) {
+  constexpr std::uint64_t kFits = 0x43;
+  constexpr std::uint8_t kRdata = 0x80;
+  const std::array<std::uint8_t, 2> zeros{};
+  std::array<std::uint8_t, 2> out{};
+  for (const bool writes : {true, false}) {
+    const std::uint64_t word = (writes ? 0xD000080 : 0xD005A80) ^ kFits;
+    for (unsigned turn = 0; turn < (writes ? 8U : 16U); ++turn) {
+      const unsigned which = turn / 8;  // of the readings
+      const unsigned phase = turn % 8;  // of the frames
+      SCOPED_TRACE((writes ? "write, reading " : "read, reading ") + std::to_string(which) +
+                   ", phase " + std::to_string(phase));
+      mb4test::Setup setup;
+      setup.check = SpiCheck::kFull;
+      setup.zeros = true;
+      Rig rig(setup);
+      ASSERT_TRUE(rig.simulator.slave(1)->set_data(word));
+      const sim::Time period = mb4test::period_us(setup) * sim::kPsPerUs;
+      rig.simulator.advance(4 * period + phase * period / 8);
+      static_cast<void>(rig.device.automatic().poll_slave(1));  // from before
+      mb4::Operation access;
+      ASSERT_TRUE(writes ? rig.device.control().plan_write(access, {1, 0}, Rig::kNamed, zeros)
+                         : rig.device.control().plan_read(access, {1, 0}, Rig::kNamed, out));
+      unsigned readings = 0;
+      unsigned good = 0;
+      bool hit = false;
+      for (bool ended = false; !ended;) {
+        for (unsigned i = 0; i < access.frames(); ++i) {
+          if (access.tx(i)[0] == 0x03 && access.tx(i)[1] == kRdata && readings++ == which) {
+            rig.bus.plan({MeanKind::kFlipMosi, i, 4});
+          }
+        }
+        rig.simulator.advance(period);
+        ended = rig.device.finish(access, access.run(rig.bus), rig.clock.now_us());
+        Transfer struck;
+        hit = hit || rig.bus.struck(struck) != nullptr;
+        const auto reading = rig.device.automatic().poll_slave(1);
+        if (reading) {
+          EXPECT_EQ(reading->position, word);
+          ++good;
+        }
+      }
+      EXPECT_TRUE(hit);
+      EXPECT_TRUE(access.result().ok() || access.result().error() == mb4::Error::kCorrupted);
+      EXPECT_GE(good, 20U);
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Checks, DriverBusSoak,
                          testing::Combine(testing::Values(SpiCheck::kCrc, SpiCheck::kFull,
                                                           SpiCheck::kFullAndRelease),

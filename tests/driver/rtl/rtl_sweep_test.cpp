@@ -122,10 +122,14 @@ Verdict disturbed(Rig& rig, const MeanFault& fault, unsigned reads) {
 // The transfers of the call without a fault.
 std::vector<Transfer> transfers(Rig& rig, const Setup& setup) {
   const Verdict verdict = disturbed(rig, {}, 20);
+  // With kFull an access of zeros drops the word that waits. activate() sends no ID at first.
+  const bool drops = setup.check >= SpiCheck::kFull && !is_single(setup.way) &&
+                     setup.act != Act::kNone && (setup.zeros || activates(setup.act));
   // Without a stored CRC a bad word may be no word at all.
   // A read at once may find that the next frame has begun.
   const Verdict most =
-      setup.before == Before::kNothingNew || (is_bad(setup.before) && setup.check == SpiCheck::kOff)
+      drops || setup.before == Before::kNothingNew ||
+              (is_bad(setup.before) && setup.check == SpiCheck::kOff)
           ? Verdict::kHidden
       : is_bad(setup.before) ? Verdict::kTold
                              : Verdict::kRight;

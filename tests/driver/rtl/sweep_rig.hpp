@@ -197,6 +197,8 @@ struct Setup {
   }
 };
 
+inline bool activates(Act act) { return act == Act::kActivate || act == Act::kPlanActivate; }
+
 // What came out of a case, the worst last.
 enum class Verdict : std::uint8_t {
   kRight,      // no call shows the fault
@@ -595,7 +597,6 @@ class Rig {
     simulator.run_until(tick_);
   }
 
-  static bool activates(Act act) { return act == Act::kActivate || act == Act::kPlanActivate; }
   static bool writes(Act act) {
     return act == Act::kWriteRegisters || act == Act::kBeginWrite || act == Act::kPlanWrite ||
            act == Act::kWriteBesideVerify;

@@ -364,10 +364,26 @@ inline bool Procedures::takes_failure(std::uint32_t stage) {
   return stage == kPoll || stage == kClear || stage == kStopped || stage >= kPollAgain;
 }
 
+// A reading that is all 0 may be none: a disturbed opcode makes it a write (0x03, 0x0B and 0x02), and
+// its bytes may have reached the SCDATAx of a sensor. The word that waits may be no word of the
+// encoder, although its CRC fits: the next read drops it.
+inline bool Procedures::reads_zeros(const Operation& op) {
+  for (std::uint8_t i = 0; i < op.made_; ++i) {
+    if (mb4_plan_tx(&op.plan_, i)[0] == MB4_CYCLIC_READ &&
+        is_zero(mb4_plan_rx(&op.plan_, i) + 2, op.plan_.size[i] - 2U)) {
+      return true;
+    }
+  }
+  return false;
+}
+
 // One stage: what its frames have brought, and the frames of the next one.
 inline Result<void> Procedures::access_stage(ChipState& chip, Operation& op, std::uint32_t now_us) {
   if (!op.good_ && !takes_failure(op.stage_)) {
     return Error::kTransport;
+  }
+  if (op.good_ && chip.automatic && chip.checks_all() && reads_zeros(op)) {
+    chip.watch.held = true;
   }
   switch (op.stage_) {
     case kRecover:
@@ -438,9 +454,8 @@ inline Result<void> Procedures::take_access_restart(ChipState& chip, Operation& 
 // A part of RDATA or IDS was written.
 inline void Procedures::take_data(ChipState& chip, Operation& op) {
   // If the bytes are in SCDATAx, a word that waits may be no word of the encoder, although its CRC
-  // fits: the next read drops it. A disturbed opcode makes that look a write (0x0B and 0x02), whose
-  // answer is all 0. So a word that is 0 there is dropped too.
-  if (looks_at_words(chip, op) && (part_is_back(op) || is_zero(received(op) + 2, part_size(op)))) {
+  // fits: the next read drops it.
+  if (looks_at_words(chip, op) && part_is_back(op)) {
     chip.watch.held = true;
   }
   op.at_ += part_size(op);

@@ -23,11 +23,11 @@
 namespace mb4::detail {
 
 [[nodiscard]] inline bool is_zero(const std::uint8_t* bytes, unsigned size) {
-  unsigned any = 0;
-  for (; size > 0; --size) {
-    any |= *bytes++;
+  while (size > 0 && *bytes == 0) {
+    ++bytes;
+    --size;
   }
-  return any == 0;
+  return size == 0;
 }
 
 // A procedure consists of a function that plans its first frames, and of its step, which looks at
@@ -696,6 +696,7 @@ struct Procedures {
   static bool statuses_agree(const ChipState& chip, const Operation& op, const Status& before);
   static Result<void> abandon_request(ChipState& chip, Operation& op, const Result<void>& cause);
   static void add_access(ChipState& chip, Operation& op);
+  static bool reads_zeros(const Operation& op);
   static bool takes_failure(std::uint32_t stage);
   [[gnu::always_inline]] static Result<void> access_stage(ChipState& chip, Operation& op,
                                                           std::uint32_t now_us);
