@@ -140,6 +140,12 @@ class SoakRig : public Rig {
   [[nodiscard]] bool cut_on_the_line(const Word& word) const override {
     return recorder_.has(word.raw, word.crc);
   }
+  // The banks were swapped by one bit of the read before.
+  [[nodiscard]] bool may_be_old() override {
+    const bool open = swapped_at_ && tick_number_ <= *swapped_at_ + 1;
+    left_open_ += open ? 1 : 0;
+    return open;
+  }
   // A write that has ended in the middle of a byte: the frames behind bring zeros, as CDM rests,
   // and the encoder takes them as the rest of the byte, and as its CRC. It fits for one byte in 16.
   [[nodiscard]] bool cut_write(std::uint8_t now, std::uint8_t named) const override {
@@ -161,8 +167,9 @@ class SoakRig : public Rig {
   void next_call() {
     Transfer hit;
     const MeanFault* fault = bus.struck(hit);
-    const bool opens = fault != nullptr && left_open(setup_.check, *fault, hit) == Verdict::kUntrue;
-    if (opens) open_until_ = tick_number_ + kOpenTicks;
+    const Verdict opens = fault != nullptr ? left_open(setup_.check, *fault, hit) : Verdict::kRight;
+    if (opens == Verdict::kUntrue) open_until_ = tick_number_ + kOpenTicks;
+    if (opens == Verdict::kOld) swapped_at_ = tick_number_;
     bus.plan({});
   }
 
@@ -279,6 +286,7 @@ class SoakRig : public Rig {
   bool writes_ = true;
   bool failed_write_ = false;     // the last one, or it was given up
   std::uint64_t open_until_ = 0;  // tick
+  std::optional<std::uint64_t> swapped_at_;
   std::uint64_t left_open_ = 0;
   std::array<std::uint8_t, kNamedCount> values_{};
 };

@@ -340,6 +340,27 @@ TEST(DriverFaultRelease, StrayAccessBetweenSteps_IsNotTakenForTheNewOne) {
   }
 }
 
+// With kFull nothing proves the release of the bank. One bit of it swaps the banks (SWBANK),
+// shortly after a frame that was lost, so that the other bank holds a word that nobody has read. A
+// status of an access that runs sees the bit.
+TEST(DriverFaultRelease, SwapSeenByAnAccess_NeverAnOldPosition) {
+  auto setup = kRelease;
+  setup.check = mb4::SpiCheck::kFull;
+  for (unsigned before = 5; before < 21; ++before) {
+    SCOPED_TRACE("after " + std::to_string(before) + " steps");
+    Drive run(setup);
+    std::array<std::uint8_t, 2> values{};
+    mb4::Operation op;
+    ASSERT_TRUE(run.chip.device.control().plan_read(op, {1, 0}, 0x30, values).ok());
+    EXPECT_TRUE(run.finish(op, before, [&run] {
+      run.chip.simulator.advance(kRelease.period_us * mb4::sim::kPsPerUs);
+      run.chip.bus.plan({FaultKind::kFlipMosi, 6, 6, 10});
+      run.read();
+    }));
+    EXPECT_TRUE(op.result().ok());
+  }
+}
+
 // The 0x02 that clears SVALID goes to another address, between two steps of a write: to the request
 // or the data of the access, too. Only the register that is meant is written, or none.
 TEST(DriverFaultRelease, SvalidGoesElsewhereBetweenSteps_OnlyTheRegisterMeantIsWritten) {

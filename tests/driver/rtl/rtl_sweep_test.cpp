@@ -127,12 +127,11 @@ std::vector<Transfer> transfers(Rig& rig, const Setup& setup) {
                      setup.act != Act::kNone && (setup.zeros || activates(setup.act));
   // Without a stored CRC a bad word may be no word at all.
   // A read at once may find that the next frame has begun.
-  const Verdict most =
-      drops || setup.before == Before::kNothingNew ||
-              (is_bad(setup.before) && setup.check == SpiCheck::kOff)
-          ? Verdict::kHidden
-      : is_bad(setup.before) ? Verdict::kTold
-                             : Verdict::kRight;
+  const Verdict most = drops || setup.before == Before::kNothingNew ||
+                               (is_bad(setup.before) && setup.check == SpiCheck::kOff)
+                           ? Verdict::kHidden
+                       : is_bad(setup.before) ? Verdict::kTold
+                                              : Verdict::kRight;
   EXPECT_LE(verdict, most) << to_string(verdict) << " without a fault: " << Case{setup, {}}.text();
   return {outcome().made.begin(),
           outcome().made.begin() + static_cast<std::ptrdiff_t>(outcome().count)};

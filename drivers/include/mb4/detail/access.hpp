@@ -701,6 +701,10 @@ inline Result<void> Procedures::take_access_status(ChipState& chip, Operation& o
     return {};
   }
   const Status& status = op.status_;
+  // A disturbed release of the bank has swapped the banks: the next read drops what waits.
+  if (chip.checks_all() && status.get<regs::SWBANK>() != 0) {
+    chip.watch.held = true;
+  }
   const bool frame_over = status.instruction_done() && (chip.automatic || status.idle());
   // Where several frames follow each other, REGEND = 1 in the first one may still belong to the
   // access before. In BiSS B the BREAK at the beginning has reset REGEND.
