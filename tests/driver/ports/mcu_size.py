@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The examples of examples/mcu/ compile without a warning for the cores that they are for.
 
-  mcu_size.py PORT CORE     compiles the example of PORT and prints its size
+  mcu_size.py PORT CORE     compiles the example of PORT and prints its size, which docs/boards.md has to 2 %
   mcu_size.py files         no example has more than 40 lines of code; the files for the builds name what exists
 
 Debian has no compiler for Xtensa: an ESP32 is checked as an ESP32-C3, whose core is RISC-V.
@@ -33,9 +33,18 @@ CORES = {
     "rv32imc": (RISCV, ["-march=rv32imc", "-mabi=ilp32"], 0),
     "rv32imac": (RISCV, ["-march=rv32imac", "-mabi=ilp32"], 0),
 }
+# The cores in docs/boards.md.
+NAMES = {"cortex-m0plus": "Cortex-M0+", "cortex-m4": "Cortex-M4", "cortex-m7": "Cortex-M7", "cortex-m33": "Cortex-M33",
+         "rv32imc": "RV32IMC", "rv32imac": "RV32IMAC"}
 FLAGS = ("-std=c++17 -Os -fno-exceptions -fno-rtti -fno-threadsafe-statics -ffunction-sections "
          "-fdata-sections -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror").split()
 LINES = 40
+
+
+def of_the_page(port, core):
+    """The bytes of flash in docs/boards.md."""
+    text = (ROOT / "docs/boards.md").read_text(encoding="utf-8")
+    return int(re.search(rf"^\| {port} \| {re.escape(NAMES[core])}(?: \([^)]*\))? \| (\d+) \|$", text, re.MULTILINE)[1])
 
 
 def compile_for(port, core):
@@ -58,6 +67,10 @@ def compile_for(port, core):
         text, data, bss = footprint.sizes(prefix, work / "example.o")
     print(f"{port} on {core}: {text + data} bytes of flash, {data + bss} bytes of static RAM (printf() "
           "and the vendor's library not counted)")
+    page = of_the_page(port, core)
+    if abs(text + data - page) > page / 50:
+        print(f"docs/boards.md has {page} bytes")
+        return 1
     return 0 if data + bss == 0 else 1
 
 
