@@ -61,6 +61,7 @@ module dsl_events (
   logic [7:0] h, l, s;           // events that come
   logic [7:0] h_q, l_q, s_q;
   logic [7:0] mask_h_q, mask_l_q, mask_s_q, mask_sum_q;
+  logic [7:0] online_d_h, online_d_l, online_1_h, online_1_l, online_2_h;
   logic       main, main_q, safe, safe_q;   // INT, SINT
   logic [1:0] postx_q;
   logic [6:0] causes, status_q, enable_q;
@@ -170,22 +171,48 @@ module dsl_events (
 
   // ---- As it is now -----------------------------------------------------------------------------
 
-  logic       unlinked;
-  assign unlinked = !linked;
+  always_comb begin
+    online_d_h = '0;
+    online_d_h[dsl_regs_pkg::NOW_INT_LSB]   = main;
+    online_d_h[dsl_regs_pkg::NOW_SUM_LSB]   = summary_q && linked;
+    online_d_h[dsl_regs_pkg::NOW_SCE_LSB]   = sce && linked;
+    online_d_h[dsl_regs_pkg::NOW_ONE_LSB]   = 1'b1;
+    online_d_h[dsl_regs_pkg::NOW_POS_LSB]   = lost_i;
+    online_d_h[dsl_regs_pkg::NOW_VPOS_LSB]  = told_i.checks.marked1 && linked;
+    online_d_h[dsl_regs_pkg::NOW_PRST_LSB]  = !linked;
+    online_d_l = '0;
+    online_d_l[dsl_regs_pkg::NOW_MIN_LSB]   = messages_i.renewed;
+    online_d_l[dsl_regs_pkg::NOW_ANS_LSB]   = messages_i.failed;
+    online_d_l[dsl_regs_pkg::NOW_QMLW_LSB]  = low;
+    online_d_l[dsl_regs_pkg::NOW_FREL_LSB]  = answer_i.running && !messages_i.long_runs;
+    online_d_l[dsl_regs_pkg::NOW_FRES_LSB]  = answer_i.running && !messages_i.main_runs;
+    online_1_h = '0;
+    online_1_h[dsl_regs_pkg::NOW_SINT_LSB]  = safe;
+    online_1_h[dsl_regs_pkg::NOW_SSUM_LSB]  = any_q && linked;
+    online_1_h[dsl_regs_pkg::NOW1_SCE_LSB]  = told_i.safe1_error && linked;
+    online_1_h[dsl_regs_pkg::NOW1_ONE_LSB]  = 1'b1;
+    online_1_h[dsl_regs_pkg::NOW1_VPOS_LSB] = told_i.checks.marked1 && linked;
+    online_1_h[dsl_regs_pkg::NOW1_PRST_LSB] = !linked;
+    online_1_l = '0;
+    online_1_l[dsl_regs_pkg::NOW1_MIN_LSB]  = messages_i.renewed;
+    online_1_l[dsl_regs_pkg::NOW1_QMLW_LSB] = low;
+    online_1_l[dsl_regs_pkg::NOW1_FRES_LSB] = answer_i.running && !messages_i.safe_runs;
+    online_2_h = '0;
+    online_2_h[dsl_regs_pkg::NOW2_SUM2_LSB]  = sum2_q && linked;
+    online_2_h[dsl_regs_pkg::NOW2_SCE2_LSB]  = told_i.safe2_error && linked;
+    online_2_h[dsl_regs_pkg::NOW2_ONE_LSB]   = 1'b1;
+    online_2_h[dsl_regs_pkg::NOW2_VPOS2_LSB] = told_i.checks.marked2 && linked;
+    online_2_h[dsl_regs_pkg::NOW2_PRST_LSB]  = !linked;
+  end
+
   assign bytes_o.event_h    = {main, h_q[6:0]};
   assign bytes_o.event_l    = l_q;
   assign bytes_o.event_s    = {safe, s_q[6:0]};
-  assign bytes_o.online_d_h = {main, summary_q && linked, sce && linked, 1'b1, lost_i,
-                               told_i.checks.marked1 && linked, 1'b0, unlinked};
-  assign bytes_o.online_d_l = {2'd0, messages_i.renewed, messages_i.failed, 1'b0, low,
-                               answer_i.running && !messages_i.long_runs,
-                               answer_i.running && !messages_i.main_runs};
-  assign bytes_o.online_1_h = {safe, any_q && linked, told_i.safe1_error && linked, 2'b10,
-                               told_i.checks.marked1 && linked, 1'b0, unlinked};
-  assign bytes_o.online_1_l = {2'd0, messages_i.renewed, 2'd0, low, 1'b0,
-                               answer_i.running && !messages_i.safe_runs};
-  assign bytes_o.online_2_h = {1'b0, sum2_q && linked, told_i.safe2_error && linked, 2'b10,
-                               told_i.checks.marked2 && linked, 1'b0, unlinked};
+  assign bytes_o.online_d_h = online_d_h;
+  assign bytes_o.online_d_l = online_d_l;
+  assign bytes_o.online_1_h = online_1_h;
+  assign bytes_o.online_1_l = online_1_l;
+  assign bytes_o.online_2_h = online_2_h;
   assign bytes_o.low        = low;
   assign bytes_o.postx      = postx_q;
   assign bytes_o.irq_status = status_q;
