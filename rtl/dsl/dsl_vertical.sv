@@ -59,7 +59,7 @@ module dsl_vertical (
   logic       first, last;    // frame of a vertical frame
   logic       vertical, acceleration, secondary;
   logic       mark;           // a special character but K28.x
-  logic       marks;          // ... of a safe channel, or the value that the SDK looks for
+  logic       marks;          // ... of a safe channel; the SDK looks for a value alone
   logic       firmware;
   logic       whole;          // a vertical frame ends, or none runs
   logic [6:0] number;         // of a bit in the channel, with the width
@@ -98,8 +98,9 @@ module dsl_vertical (
                      && answer_i.word.data[4:0] != K28;
   always_comb begin
     marks = mark;
-    if (quirks_i.sdk_map && answer_i.place == 3'd1 && !answer_i.word.error) begin
-      marks = mark || answer_i.word.data == (secondary ? MARKER2 : MARKER);
+    if (quirks_i.sdk_map) begin
+      marks = answer_i.place == 3'd1 && !answer_i.word.error
+           && answer_i.word.data == (secondary ? MARKER2 : MARKER);
     end
   end
   assign good2        = !code2_q && !crc2_q;

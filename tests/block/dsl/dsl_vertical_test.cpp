@@ -121,6 +121,35 @@ TEST_F(DslVerticalBlock, SafePositionsOfKnownCrc_AreGood) {
   }
 }
 
+// K8: the map of the SDK compares the value of the first byte of a position alone; ours looks for a
+// special character in any byte.
+TEST_F(DslVerticalBlock, Marker_IsASpecialCharacterAndInTheSdkAValue) {
+  for (const bool sdk : {false, true}) {
+    m.quirks_i = quirks_of({.sdk_map = sdk});
+    for (const std::uint64_t position : {0xFD'1234'5678U, 0x12'3456'789AU}) {
+      const SafeBytes bytes = safe_bytes(0, position);
+      for (unsigned special = 0; special <= 8; ++special) {  // 8: none
+        SCOPED_TRACE(testing::Message() << "sdk " << sdk << " first byte " << unsigned{bytes[1]}
+                                        << " special " << special);
+        begin_link();
+        for (port.place = 0; port.place < SafeChannels::kFrames; ++port.place) {
+          Words words{};
+          set_acceleration(words, 0x001F);
+          words[kVertical] = byte_word(bytes[port.place]);
+          words[kVertical].special = port.place == special;
+          words[kSecondary] = byte_word(kSafe[0][port.place]);
+          send(words);
+        }
+        port.place = 0;
+        const bool k28 = special < 8 && (bytes[special] & 0x1FU) == 28;
+        const bool marked = sdk ? bytes[1] == kMarker1 : special < 8 && !k28;
+        EXPECT_EQ(Told(m.told_o).safe1_valid, !marked);
+        EXPECT_TRUE(Told(m.told_o).safe2_valid);
+      }
+    }
+  }
+}
+
 // R23, R38: the marker is a bad word, and told apart from one that a line has made.
 TEST_F(DslVerticalBlock, MarkerInTheAcceleration_IsTold) {
   begin_link();
