@@ -33,7 +33,6 @@ INSTEAD = {
     "clb_page": "through biss_clb",
     "clb_regs": "through biss_clb",
     "biss_sl_capture": "through biss_sl_sampler",
-    "enc_axil": "proof axil",
     "enc_axis_fifo": "proof axis",
     "enc_ram": "through mb4_memory",
     "enc_ram_pair": "through mb4_memory",
@@ -41,7 +40,6 @@ INSTEAD = {
     "enc_reset_sync": "through mb4_engine",
     "enc_sync_bit": "through enc_count_rx",
     "enc_time": "through mb4_page",
-    "enc_wb": "proof wb",
     "dsl_answer": "through dsl_message",
     "dsl_crc16": "through dsl_vertical",
     "dsl_events": "test tests/block/dsl/dsl_regs_test.cpp",  # with the registers

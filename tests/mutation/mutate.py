@@ -73,8 +73,10 @@ def no_logic(code):
 
 def logic_lines(code):
     """(start, end) of text in which expressions may change: behind the ports, outside constants,
-    case labels, generates, checks and sensitivity lists."""
-    body = code.index("\n);\n") + 4
+    case labels, generates, checks and sensitivity lists. A module without ports only checks parameters."""
+    body = code.find("\n);\n") + 4
+    if body < 4:
+        return
     fixed = no_logic(code)
     for match in re.compile(r"[^\n]+\n").finditer(code, body):
         line = match.group()

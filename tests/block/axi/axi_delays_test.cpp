@@ -128,6 +128,28 @@ TEST_F(AxiDelaysBlock, RandomDelays_ShiftTheStarts) {
   }
 }
 
+// A shifted start is to come, and the delays are looked at, when the reset falls.
+TEST_F(AxiDelaysBlock, Reset_StartsNothing) {
+  set_delay(0, 0);
+  set_delay(1, 200);
+  m.shift_i = 1;
+  done();
+  m.start_i = m.done_i = 1;
+  block.clock();
+  m.start_i = m.done_i = 0;
+  m.eval();
+  EXPECT_EQ(m.pending_o, 1);
+  EXPECT_EQ(m.busy_o, 1);
+  m.rst_ni = 0;
+  m.eval();
+  EXPECT_EQ(m.start_o | m.pending_o | m.busy_o | m.alarm_o, 0);
+  m.rst_ni = 1;
+  for (int clock = 0; clock < 300; ++clock) {
+    block.clock();
+    EXPECT_EQ(m.start_o | m.pending_o | m.busy_o | m.alarm_o, 0);
+  }
+}
+
 // A start that is to come holds the channel in its frame; a soft reset or a disabled channel drops
 // it.
 TEST_F(AxiDelaysBlock, PendingStart_EndsWithItsStartOrAReset) {

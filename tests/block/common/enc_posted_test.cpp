@@ -106,4 +106,56 @@ TEST(PostedBlock, CoreClockStandsStill_128BytesWaitAndNoneIsLost) {
   }
 }
 
+// mark_o follows a change of mark_i when the core has taken all bytes written before it, whatever
+// waits behind them.
+TEST(PostedBlock, Mark_ComesWhenTheBytesBeforeItAreTaken) {
+  mb4test::Dice dice;
+  mb4test::Owned<Venc_posted> owner;
+  Venc_posted& posted = *owner;
+  posted.wr_clk_i = posted.clk_i = 0;
+  posted.wr_en_i = posted.mark_i = posted.ready_i = 0;
+  for (const int level : {1, 0, 1}) {
+    posted.wr_rst_ni = posted.rst_ni = static_cast<std::uint8_t>(level);
+    posted.eval();
+  }
+  EXPECT_EQ(posted.mark_o, 0);
+  unsigned sent = 0, taken = 0;
+  const auto host_writes = [&](unsigned bytes) {
+    for (unsigned i = 0; i < bytes; ++i) {
+      posted.wr_en_i = 1;
+      posted.wr_data_i = static_cast<std::uint16_t>(sent++);
+      posted.wr_clk_i = 1;
+      posted.eval();
+      posted.wr_clk_i = 0;
+      posted.wr_en_i = 0;
+      posted.eval();
+    }
+  };
+  const auto core_clock = [&](bool ready) {
+    posted.ready_i = ready;
+    posted.eval();
+    taken += posted.valid_o != 0 && ready ? 1 : 0;
+    posted.clk_i = 1;
+    posted.eval();
+    posted.clk_i = 0;
+    posted.eval();
+  };
+  for (int round = 0; round < 500; ++round) {
+    host_writes(dice.below(20));
+    for (unsigned i = dice.below(10); i > 0; --i) core_clock(dice.below(2) != 0);
+    const unsigned before = sent;
+    posted.mark_i ^= 1;
+    host_writes(dice.below(4));
+    unsigned clocks_behind = 0;  // after the last byte that counts
+    while (posted.mark_o != posted.mark_i && clocks_behind < 20) {
+      clocks_behind += taken >= before ? 1 : 0;
+      core_clock(taken < before && dice.below(3) != 0);
+      ASSERT_TRUE(posted.mark_o != posted.mark_i || taken >= before) << round;
+    }
+    ASSERT_EQ(posted.mark_o, posted.mark_i) << round;
+    for (unsigned i = dice.below(60); i > 0; --i) core_clock(true);
+    ASSERT_EQ(posted.mark_o, posted.mark_i) << round;
+  }
+}
+
 }  // namespace

@@ -1,11 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
-// The models of biss_axi with up to four channels that coverage or mutants run: takes the place of
-// sim/masters/axi/axi_model.cpp.
+// The models of biss_axi and biss_spi with up to four channels that coverage or mutants run: takes
+// the place of sim/masters/axi/axi_model.cpp and axi_spi.cpp.
 #include <Vmeasured_axi_4.h>
 #include <Vmeasured_axi_4___024root.h>
 #include <Vmeasured_axi_full_4.h>
 #include <Vmeasured_axi_full_4___024root.h>
+#include <Vmeasured_axi_spi_4.h>
+#include <Vmeasured_axi_spi_4___024root.h>
+#include <Vmeasured_axi_spi_full_4.h>
+#include <Vmeasured_axi_spi_full_4___024root.h>
 
 #include <stdexcept>
 
@@ -26,9 +30,13 @@ struct Inside {
   }
 };
 
-template <typename Model>
+struct InsideSpi : Inside {
+  static constexpr bool kSpi = true;
+};
+
+template <typename Model, typename What = Inside>
 std::unique_ptr<AxiModel> make(const ChipConfig& chip, std::uint64_t seed) {
-  return std::make_unique<VerilatedAxi<Model, 4, WholeSteps<Model>, Inside>>(chip, seed, true);
+  return std::make_unique<VerilatedAxi<Model, 4, WholeSteps<Model>, What>>(chip, seed, true);
 }
 
 }  // namespace
@@ -38,6 +46,13 @@ std::unique_ptr<AxiModel> make_axi_model(const ChipConfig& chip, unsigned channe
   if (channels > 4) throw std::runtime_error("the measured models have four channels");
   return chip.features == kAxiFull ? make<Vmeasured_axi_full_4>(chip, seed)
                                    : make<Vmeasured_axi_4>(chip, seed);
+}
+
+std::unique_ptr<AxiModel> make_axi_spi_model(const ChipConfig& chip, unsigned channels,
+                                             std::uint64_t seed, bool /*plain*/) {
+  if (channels > 4) throw std::runtime_error("the measured models have four channels");
+  return chip.features == kAxiFull ? make<Vmeasured_axi_spi_full_4, InsideSpi>(chip, seed)
+                                   : make<Vmeasured_axi_spi_4, InsideSpi>(chip, seed);
 }
 
 }  // namespace mb4::sim

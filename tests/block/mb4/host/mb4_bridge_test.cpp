@@ -64,6 +64,12 @@ TYPED_TEST(WordBus, IdentityAndAddressesWithoutWords_ReadAsPrinted) {
     EXPECT_EQ(bus.get(address), 0U) << std::hex << address;
   }
   EXPECT_EQ(bus.get(page::kAddrTimeHigh), 0U);
+  // Nothing stands behind the last snapshot, whatever that holds.
+  bus.put(0x38, 0x55AA55AAU);  // SCDATA8
+  EXPECT_EQ(bus.get(snapshot(8, 0)), 0x55AA55AAU);
+  for (std::uint32_t address = 0x1E0; address < 0x200; address += 4) {
+    EXPECT_EQ(bus.get(address), 0U) << std::hex << address;
+  }
   // REVISION and VERSION stand in bytes 2 and 3 of the word of 0xE8 (decision 33).
   EXPECT_EQ(bus.get(0xE8) >> 16, 0x8420U);
 }
@@ -369,6 +375,28 @@ TYPED_TEST(WordBus, Interrupts_FollowTheirEvents) {
     EXPECT_FALSE(bus.model->irq_o);
     bus.put(page::kAddrIrqEnable, 0x02U);
     EXPECT_TRUE(bus.model->irq_o);
+  }
+}
+
+// The registers of the interrupt have one address each, and their first byte alone acts.
+TYPED_TEST(WordBus, WritesElsewhere_LeaveTheInterruptAlone) {
+  WordBusBench<TypeParam> bus(10'000, 50'000);
+  bus.put(page::kAddrIrqEnable, 0x12U);
+  bus.model->ner_i = 0;
+  for (int i = 0; i < 200; ++i) bus.clock();
+  const auto expect_untouched = [&](std::uint32_t address) {
+    EXPECT_EQ(bus.get(page::kAddrIrqStatus), 0x02U) << std::hex << address;
+    EXPECT_EQ(bus.get(page::kAddrIrqEnable), 0x12U) << std::hex << address;
+  };
+  expect_untouched(0);
+  for (std::uint32_t address = 0; address < 0x1000; address += 4) {
+    const std::uint32_t low = address & 0xFF;
+    if (address >> 8 != 1 && low != (page::kAddrIrqStatus & 0xFF) &&
+        low != (page::kAddrIrqEnable & 0xFF))
+      continue;
+    const bool own = address == page::kAddrIrqStatus || address == page::kAddrIrqEnable;
+    bus.put(address, address % 8 == 0 ? 0xFFFFFFFFU : 0x0000000DU, own ? 0xE : 0xF);
+    expect_untouched(address);
   }
 }
 
