@@ -24,7 +24,6 @@ BUILD = "tests/block/CMakeLists.txt"
 # a block test or a row here. test FILE: tests of the whole chip, for a module that connects others and
 # has few flops of its own.
 INSTEAD = {
-    "axi_access": "test tests/chip/axi/axi_extras_test.cpp",      # biss_control_frame with its registers
     "axi_word": "through axi_channel",
     "axi_core": "test tests/chip/axi/axi_frame_test.cpp",          # pins error and warn
     "biss_frame": "through biss_line",

@@ -70,6 +70,11 @@ class AxiChannelBlock : public testing::Test {
     m.half_next_i = !half_high;
     m.slo_i = line == Line::kHigh || (line == Line::kEncoder && history.back());
     m.eval();
+    events.begun += at::event_t::kBegun.of(m.event_o);
+    events.ended += at::event_t::kEnded.of(m.event_o);
+    events.failed += at::event_t::kFailed.of(m.event_o);
+    events.crc_error += at::event_t::kCrcError.of(m.event_o);
+    events.late += at::event_t::kLate.of(m.event_o);
     const auto before = results();
     const bool ran = m.frame_o != 0;
     if (m.start_i != 0) {
@@ -99,6 +104,11 @@ class AxiChannelBlock : public testing::Test {
   void clocks(unsigned count_) {
     for (unsigned i = 0; i < count_; ++i) clock();
   }
+  // What a frame has told since it was started.
+  struct Events {
+    std::uint64_t begun = 0, ended = 0, failed = 0, crc_error = 0, late = 0;
+    bool operator==(const Events&) const = default;
+  };
   // The start of a frame; it stays in the clock after it.
   void start(const Frame& started, bool request = false) {
     frame = started;
@@ -110,6 +120,7 @@ class AxiChannelBlock : public testing::Test {
     rises.clear();
     falls.clear();
     m.frame_i = frame.port();
+    events = {};
     m.start_i = 1;
     m.request_i = request;
     clock();
@@ -179,6 +190,7 @@ class AxiChannelBlock : public testing::Test {
   mb4test::Block<Vaxi_channel> block;
   Vaxi_channel& m = block.model;
   Frame frame;
+  Events events;
   mb4test::Slave slave;
   Line line = Line::kEncoder;
   std::deque<bool> history{true};
@@ -203,6 +215,7 @@ TEST_F(AxiChannelBlock, RandomWordsAndDelays_ReachTheResults) {
     if (HasFatalFailure()) return;
     ASSERT_TRUE(good());
     ASSERT_FALSE(crc_bad());
+    ASSERT_EQ(events, (Events{.begun = 1, .ended = 1}));
     ASSERT_EQ(position(), next.position);
     ASSERT_EQ(flags(), next.flags);
     ASSERT_EQ(delay(), next.delay);
@@ -236,6 +249,7 @@ TEST_F(AxiChannelBlock, EveryWrongBit_IsBadOnlyIfChecked) {
       start(wrong);
       run();
       EXPECT_TRUE(crc_bad()) << bit;
+      EXPECT_EQ(events, (Events{.begun = 1, .ended = 1, .crc_error = 1}));
       EXPECT_EQ(received(), std::stoul(wrong.word().substr(28), nullptr, 2));
       EXPECT_EQ(calculated(), ~mb4test::crc_of(wrong.word().substr(0, 28), kCrc6) & 0x3FU);
       if (check) {
@@ -271,6 +285,7 @@ TEST_F(AxiChannelBlock, LowLineAtTheStart_RestsAtOnce) {
   EXPECT_EQ(m.busy_o, 0);
   clocks(100);
   EXPECT_TRUE(rises.empty() && falls.empty());
+  EXPECT_EQ(events, (Events{.late = 1}));
   expect_good_frame_kept();
   EXPECT_EQ(delay(), kLongestDelay);
   EXPECT_EQ(received() | calculated(), 0U);
@@ -284,6 +299,7 @@ TEST_F(AxiChannelBlock, OpenLine_EndsAfter1023Clocks) {
     start({.half = length});
     run();
     expect_pulses();
+    EXPECT_EQ(events, (Events{.begun = 1, .failed = 1}));
     expect_good_frame_kept();
     EXPECT_EQ(delay(), kLongestDelay);
     EXPECT_EQ(received() | calculated(), 0U);

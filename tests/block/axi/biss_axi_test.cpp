@@ -51,6 +51,7 @@ TEST(BissAxiTop, ThreeChannels_OneBeatWithAllWordsAndTheirDelays) {
     EXPECT_EQ(bench.beats[0].words, sent) << round;
     EXPECT_EQ(bench.beats[0].user, 7U) << round;
     EXPECT_TRUE(bench.beats[0].last);
+    EXPECT_EQ(bench.m.irq, 0) << "of the page, which it does not have";
     EXPECT_EQ(bench.read(reg::kAddrSinglePointValid), 7U);
     for (unsigned c = 0; c < 3; ++c) {
       EXPECT_EQ(bench.read(c, reg::kAddrLineDelay), bench.encoders[c].delay);

@@ -146,10 +146,10 @@ TEST(PostedBlock, Mark_ComesWhenTheBytesBeforeItAreTaken) {
     const unsigned before = sent;
     posted.mark_i ^= 1;
     host_writes(dice.below(4));
-    unsigned clocks_behind = 0;  // after the last byte that counts
+    unsigned clocks_behind = 0;  // after the last byte
     while (posted.mark_o != posted.mark_i && clocks_behind < 20) {
-      clocks_behind += taken >= before ? 1 : 0;
-      core_clock(taken < before && dice.below(3) != 0);
+      clocks_behind += taken == sent ? 1 : 0;
+      core_clock(dice.below(3) != 0);
       ASSERT_TRUE(posted.mark_o != posted.mark_i || taken >= before) << round;
     }
     ASSERT_EQ(posted.mark_o, posted.mark_i) << round;

@@ -156,6 +156,25 @@ TEST(AxiExtras, AnyCrc_IsCheckedAndShown) {
   }
 }
 
+// 0x2C and 0x30 are of the last start with all their bits, also if it brought no word.
+TEST(AxiExtras, AnyCrcOfAFrameThatDidNotCome_IsZero) {
+  AxiBench bench(full(without_crc(axi_scenario({{.delay_ns = 85, .slave = "crc = 0x190D9\n"}}))));
+  bench.set_up(26, 5);
+  bench.write(axireg::kAddrCrcPolynomial, 0x190D9);
+  bench.simulator.slave(1)->set_data(raw_word(0x123'4567));
+  for (const char* level : {"0", "1"}) {
+    ASSERT_TRUE(bench.frame());
+    ASSERT_GT(bench.read(axireg::kAddrReceivedCrc), 0x3FU);
+    bench.simulator.inject(
+        std::string("[[fault]]\nkind = \"stuck\"\nchannel = 1\nat_us = 1\nfor_us = 60\nlevel = ") +
+        level + "\n");
+    bench.simulator.advance(5 * sim::kPsPerUs);
+    ASSERT_TRUE(bench.frame()) << level;
+    EXPECT_EQ(bench.read(axireg::kAddrReceivedCrc), 0U) << level;
+    EXPECT_EQ(bench.read(axireg::kAddrCalculatedCrc), 0U) << level;
+  }
+}
+
 // TIMEOUT: adaptive with a limit that is shorter than the encoder's, and fixed.
 TEST(AxiExtras, TimeoutRegister_LimitsOrFixesTheWait) {
   const auto run = [](const std::string& slave, std::uint32_t timeout) {
@@ -481,6 +500,22 @@ TEST(AxiExtras, RegisterAccess_ReadsAndWritesWhilePositionsFlow) {
   const auto& counters = clocked(bench.simulator.slave(1))->control()->counters();
   EXPECT_EQ(counters.header_errors + counters.data_errors + counters.protocol_errors, 0U);
   EXPECT_EQ(access.run(0, false, 0x21), 0U);
+}
+
+// The line is longer than the word: MA has all its edges before CDS comes back, and CDM still
+// depends on it.
+TEST(AxiExtras, RegisterAccessOverALineLongerThanTheWord_IsRight) {
+  AxiBench bench(full(axi_scenario({{.bits = 4, .delay_ns = 4000, .slave = kSlave}})));
+  bench.write(axireg::kAddrSampleDivider, 1500);
+  bench.set_up(4, 5);
+  bench.write(axireg::kAddrMode, 0);
+  Access access{bench};
+  EXPECT_EQ(access.run(0, false, 0x21), 0U);
+  EXPECT_EQ(access.data(), 0xC3U);
+  EXPECT_EQ(access.run(0, true, 0x20, 0x3C), 0U);
+  EXPECT_EQ(bench.simulator.slave(1)->reg_read(0x20), 0x3C);
+  EXPECT_EQ(access.run(0, false, 0x20), 0U);
+  EXPECT_EQ(access.data(), 0x3CU);
 }
 
 TEST(AxiExtras, RegisterAccessThatFails_SaysHow) {
