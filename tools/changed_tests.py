@@ -23,7 +23,8 @@ from collections import Counter
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
-NEAREST = {"rtl": "block_test", "sim": "sim_unit_test", "drivers": "mb4_driver_test"}
+# The first row that a file begins with.
+NEAREST = {"rtl/axi/": "axi_block_test", "rtl/": "block_test", "sim/": "sim_unit_test", "drivers/": "mb4_driver_test"}
 LEFT_OUT = re.compile(r"(Intel|Motorola|Package|DriverHost|DriverSweep|Docs|EdgeParts|Icarus|Canary)[.]|"
                       r"Parts/ChipFuzz|Python[.]Cocotb")
 # Rooms of tests/ whose data is read by the scripts beside it alone.
@@ -174,8 +175,9 @@ def main():
         record.parent.mkdir(exist_ok=True)
         record.write_text(json.dumps(passed, indent=1, sort_keys=True), encoding="utf-8")
 
-    rooms = {line[3:].split("/")[0] for line in git("status", "--porcelain").splitlines()}
-    for program in sorted({NEAREST[room] for room in rooms if room in NEAREST}):
+    files = [line[3:] for line in git("status", "--porcelain").splitlines()]
+    nearest = {next((program for room, program in NEAREST.items() if file.startswith(room)), None) for file in files}
+    for program in sorted(nearest - {None}):
         if not build_targets(build, program):
             return 1
         attempt(program, program_job(build / "bin" / program))
