@@ -201,10 +201,10 @@ class Automatic {
   // Not touched: kInvalidArgument (the slave is no enabled sensor), kWrongMode (automatic frames do
   // not run), kBusy as for poll(). kNoData: no frame with data of this slave has ended since the
   // last call; or, with SpiCheck::kFull, a write or a command in front of the first frame has made
-  // this call drop what waits. kCrc: one has, and its CRC was wrong; told once for each frame, without a stored CRC
-  // as for poll(). kSlaveError: one has, and its nE is 0; Result::reading() has it. kNoWord: as for
-  // poll(). kTimeout, kLineError, kCorrupted, kTransport, kNotDetected, kBankSwitched as for
-  // poll().
+  // this call drop what waits. kCrc: one has, and its CRC was wrong; told once for each frame,
+  // without a stored CRC as for poll(). kSlaveError: one has, and its nE is 0; Result::reading()
+  // has it. kNoWord: as for poll(). kTimeout, kLineError, kCorrupted, kTransport, kNotDetected,
+  // kBankSwitched as for poll().
   //
   // `Parts` is as With, for this call: poll_slave<0>() is for one slave, BiSS of up to 32 data bits
   // with SpiCheck::kCrc or kOff and Config::hold_beside_access. Without MB4_WITH_BEATS it does not

@@ -364,8 +364,8 @@ inline bool Procedures::takes_failure(std::uint32_t stage) {
   return stage == kPoll || stage == kClear || stage == kStopped || stage >= kPollAgain;
 }
 
-// A reading that is all 0 may be none: a disturbed opcode makes it a write (0x03, 0x0B and 0x02), and
-// its bytes may have reached the SCDATAx of a sensor. The word that waits may be no word of the
+// A reading that is all 0 may be none: a disturbed opcode makes it a write (0x03, 0x0B and 0x02),
+// and its bytes may have reached the SCDATAx of a sensor. The word that waits may be no word of the
 // encoder, although its CRC fits: the next read drops it.
 inline bool Procedures::reads_zeros(const Operation& op) {
   for (std::uint8_t i = 0; i < op.made_; ++i) {
