@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "Vdsl_code_rx.h"
+#include "places.hpp"
 #include "sim/masters/dsl_model/line_code.hpp"
 #include "tests/support/model_context.hpp"
 
@@ -15,12 +16,12 @@ namespace {
 
 using namespace mb4::sim::dsl_model;
 
-// The fields of dsl_pkg::word_t.
 Word word_of(unsigned port) {
-  return {.byte = static_cast<std::uint8_t>(port >> 3),
-          .error = (port >> 2 & 1) != 0,
-          .special = (port >> 1 & 1) != 0,
-          .only_strict = (port & 1) != 0};
+  using namespace mb4test::places::dsl_pkg::word_t;
+  return {.byte = static_cast<std::uint8_t>(kData.of(port)),
+          .error = kError.of(port) != 0,
+          .special = kSpecial.of(port) != 0,
+          .only_strict = kOnlyStrict.of(port) != 0};
 }
 
 TEST(DslCodeRxBlock, EachWord_IsThatOfTheModel) {

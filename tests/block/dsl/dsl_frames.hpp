@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdint>
 
+#include "places.hpp"
 #include "sim/masters/dsl_model/line_code.hpp"
 #include "sim/masters/dsl_model/link.hpp"
 #include "tests/block/dsl/dsl_quirks.hpp"
@@ -17,6 +18,7 @@
 namespace dsl_frames {
 
 using namespace mb4::sim::dsl_model;
+namespace at = mb4test::places::dsl_pkg;
 using mb4test::quirks_of;
 
 // The words of a frame as they come: vertical, S_PAR, pipeline, two of the acceleration, secondary.
@@ -86,38 +88,30 @@ struct AnswerPort {
   bool ends = false;
 
   std::uint32_t bits() const {
-    const auto bit = [](bool level) { return level ? 1U : 0U; };
-    const unsigned word_bits = unsigned{word.byte} << 3U | bit(word.error) << 2U |
-                               bit(word.special) << 1U | bit(word.only_strict);
-    return bit(linked) << 21U | bit(begins) << 20U | bit(running) << 19U | place << 16U |
-           bit(valid) << 15U | number << 12U | word_bits << 1U | bit(ends);
+    using namespace at::answer_t;
+    return static_cast<std::uint32_t>(
+        kLinked(linked) | kBegins(begins) | kRunning(running) | kPlace(place) | kValid(valid) |
+        kNumber(number) | kWordData(word.byte) | kWordError(word.error) |
+        kWordSpecial(word.special) | kWordOnlyStrict(word.only_strict) | kEnds(ends));
   }
 };
 
-// What dsl_position takes of dsl_pkg::line_status_t.
+// dsl_pkg::line_status_t.
 struct StatusPort {
   unsigned state = 0;
   unsigned reason = 0;
   unsigned identity = 0;
-  unsigned width = 8;
+  unsigned width = 8;  // bits of the position, 8 or more
   unsigned quality = 0;
-  unsigned delay = 0;
+  unsigned low = 0;
+  unsigned rssi = 0;
+  unsigned edges = 0;
+  unsigned place = 0;
 
   std::uint64_t bits() const {
-    std::uint64_t all = 0;
-    unsigned at = 0;
-    const auto add = [&all, &at](unsigned value, unsigned size) {
-      all |= std::uint64_t{value & ((1U << size) - 1)} << at;
-      at += size;
-    };
-    add(delay << 8U, 12);
-    add(0, 8 + 4 + 1);
-    add(quality, 4);
-    add(width - 8, 6);
-    add(identity, 20);
-    add(reason, 3);
-    add(state, 4);
-    return all;
+    using namespace at::line_status_t;
+    return kState(state) | kReason(reason) | kIdentity(identity) | kWidth(width - 8) |
+           kQuality(quality) | kLow(low) | kRssi(rssi) | kEdges(edges) | kPlace(place);
   }
 };
 
@@ -125,14 +119,15 @@ struct StatusPort {
 struct Told {
   explicit Told(unsigned port)
       : bits(port),
-        acceleration_good((port >> 10U & 1U) != 0),
-        acceleration_marked((port >> 9U & 1U) != 0),
-        missing(port >> 4U & 0x1FU),
-        safe1_valid((port >> 3U & 1U) != 0),
-        safe1_error((port >> 2U & 1U) != 0),
-        safe2_valid((port >> 1U & 1U) != 0),
-        safe2_error((port & 1U) != 0) {}
-  unsigned checks() const { return bits >> 11U; }  // dsl_pkg::safe_checks_t
+        acceleration_good(at::told_t::kAccelerationGood.of(port) != 0),
+        acceleration_marked(at::told_t::kAccelerationMarked.of(port) != 0),
+        missing(static_cast<unsigned>(at::told_t::kMissing.of(port))),
+        safe1_valid(at::told_t::kSafe1Valid.of(port) != 0),
+        safe1_error(at::told_t::kSafe1Error.of(port) != 0),
+        safe2_valid(at::told_t::kSafe2Valid.of(port) != 0),
+        safe2_error(at::told_t::kSafe2Error.of(port) != 0) {}
+  // dsl_pkg::safe_checks_t.
+  unsigned checks() const { return static_cast<unsigned>(at::told_t::kChecks.of(bits)); }
   unsigned bits;
   bool acceleration_good;
   bool acceleration_marked;
@@ -146,11 +141,11 @@ struct Told {
 // dsl_pkg::verdict_t.
 struct Verdict {
   explicit Verdict(unsigned port)
-      : safe1_error((port >> 4U & 1U) != 0),
-        safe1_good((port >> 3U & 1U) != 0),
-        safe2_error((port >> 2U & 1U) != 0),
-        misfit((port >> 1U & 1U) != 0),
-        missing((port & 1U) != 0) {}
+      : safe1_error(at::verdict_t::kSafe1Error.of(port) != 0),
+        safe1_good(at::verdict_t::kSafe1Good.of(port) != 0),
+        safe2_error(at::verdict_t::kSafe2Error.of(port) != 0),
+        misfit(at::verdict_t::kMisfit.of(port) != 0),
+        missing(at::verdict_t::kMissing.of(port) != 0) {}
   bool safe1_error;
   bool safe1_good;
   bool safe2_error;

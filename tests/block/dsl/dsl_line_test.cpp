@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "Vdsl_line.h"
+#include "places.hpp"
 #include "sim/lines/dsl/dsl_code.hpp"
 #include "sim/masters/dsl_model/link.hpp"
 #include "tests/block/dsl/dsl_quirks.hpp"
@@ -34,64 +35,43 @@ constexpr unsigned kFrameTicks = 864;
 
 // ---- Ports --------------------------------------------------------------------------------------
 
-// Fields of packed structs, the last one first.
-template <typename Port>
-class Fields {
- public:
-  explicit Fields(const Port& port) : port_(port) {}
-  unsigned next(unsigned width) {
-    unsigned value = 0;
-    for (unsigned i = 0; i < width; ++i, ++at_) value |= bit(at_) << i;
-    return value;
-  }
+namespace at = mb4test::places::dsl_pkg;
 
- private:
-  unsigned bit(unsigned at) const {
-    if constexpr (requires { port_[0]; }) {
-      return port_[at / 32] >> at % 32 & 1U;
-    } else {
-      return port_ >> at & 1U;
-    }
-  }
-  const Port& port_;
-  unsigned at_ = 0;
-};
-
-// dsl_pkg::answer_t.
 struct AnswerPort {
   explicit AnswerPort(std::uint32_t port) {
-    Fields fields(port);
-    ends = fields.next(1) != 0;
-    word.only_strict = fields.next(1) != 0;
-    word.special = fields.next(1) != 0;
-    word.error = fields.next(1) != 0;
-    word.byte = static_cast<std::uint8_t>(fields.next(8));
-    number = fields.next(3);
-    valid = fields.next(1) != 0;
-    place = fields.next(3);
-    running = fields.next(1) != 0;
-    begins = fields.next(1) != 0;
-    linked = fields.next(1) != 0;
+    using namespace at::answer_t;
+    ends = kEnds.of(port) != 0;
+    word.only_strict = kWordOnlyStrict.of(port) != 0;
+    word.special = kWordSpecial.of(port) != 0;
+    word.error = kWordError.of(port) != 0;
+    word.byte = static_cast<std::uint8_t>(kWordData.of(port));
+    number = static_cast<unsigned>(kNumber.of(port));
+    valid = kValid.of(port) != 0;
+    place = static_cast<unsigned>(kPlace.of(port));
+    running = kRunning.of(port) != 0;
+    begins = kBegins.of(port) != 0;
+    linked = kLinked.of(port) != 0;
   }
   bool linked, begins, running, valid, ends;
   unsigned place, number;
   Word word;
 };
 
-// dsl_pkg::line_status_t.
 struct StatusPort {
-  template <typename Port>
-  explicit StatusPort(const Port& port) {
-    Fields fields(port);
-    place = fields.next(12);
-    edges = fields.next(8);
-    rssi = fields.next(4);
-    low = fields.next(1) != 0;
-    quality = fields.next(4);
-    width = fields.next(6);
-    identity = fields.next(20);
-    reason = fields.next(3);
-    state = fields.next(4);
+  explicit StatusPort(std::uint64_t port) {
+    using namespace at::line_status_t;
+    const auto of = [port](const mb4test::Place& field) {
+      return static_cast<unsigned>(field.of(port));
+    };
+    place = of(kPlace);
+    edges = of(kEdges);
+    rssi = of(kRssi);
+    low = of(kLow) != 0;
+    quality = of(kQuality);
+    width = of(kWidth);
+    identity = of(kIdentity);
+    reason = of(kReason);
+    state = of(kState);
   }
   unsigned place, edges, rssi, quality, width, identity, reason, state;
   bool low;
@@ -122,8 +102,10 @@ class Judge {
     }
     missing_ = acceleration_good() ? 0 : missing_ + 1;
     const bool misfit = rules_.strict_id && good1 && !one.mark && !one.fits(identity);
-    return (error1 ? 16U : 0U) | (good1 ? 8U : 0U) | (error2 ? 4U : 0U) | (misfit ? 2U : 0U) |
-           (missing_ != 0 && missing_ >= rules_.acceleration_limit ? 1U : 0U);
+    using namespace at::verdict_t;
+    return static_cast<unsigned>(kSafe1Error(error1) | kSafe1Good(good1) | kSafe2Error(error2) |
+                                 kMisfit(misfit) |
+                                 kMissing(missing_ != 0 && missing_ >= rules_.acceleration_limit));
   }
   void begin() { missing_ = 0; }
 
@@ -475,8 +457,8 @@ class Lines final : public LinkListener {
     m.line_i = in ? 1 : 0;
     take_verdict();
     m.eval();
-    restarts_ += m.counts_o >> 1U;
-    illegal_words_ += m.counts_o & 1U;
+    restarts_ += at::counts_t::kRestart.of(m.counts_o);
+    illegal_words_ += at::counts_t::kIllegal.of(m.counts_o);
     block.clock();
     ++ticks;
   }

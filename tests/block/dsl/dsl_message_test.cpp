@@ -30,7 +30,8 @@ using dsl_frames::AnswerPort;
 using Bytes = std::vector<std::uint8_t>;
 using Symbols = std::vector<unsigned>;
 
-constexpr unsigned kCheckAnswers = 1U << 28U;  // of dsl_pkg::quirks_t
+constexpr auto kCheckAnswers =
+    static_cast<unsigned>(mb4test::places::dsl_pkg::quirks_t::kCheckAnswers(1));
 constexpr unsigned kIdle = 0x10;
 constexpr unsigned kShortNak = 0x15;
 constexpr unsigned kLongNak = 0x1A;

@@ -11,23 +11,21 @@
 #include <vector>
 
 #include "Vdsl_phy.h"
+#include "places.hpp"
 #include "tests/support/model_context.hpp"
 
 namespace {
 
 constexpr unsigned kSlots = 72;
 constexpr unsigned kSamples = 8 * kSlots;
-constexpr unsigned kValid = 19;  // bits of the stream
-constexpr unsigned kNumber = 9;
-constexpr unsigned kTurn = 1;
-constexpr unsigned kDrive = 8;
-constexpr unsigned kEighths = 4;  // lowest bit
+namespace bits = mb4test::places::dsl_pkg::bit_t;
+namespace stream = mb4test::places::dsl_pkg::stream_t;
 
 TEST(DslPhyBlock, RandomBits_LeaveAndEnterAtTheirTicks) {
   mb4test::Dice random;
   mb4test::Block<Vdsl_phy> block;
   auto& m = block.model;
-  m.bit_i = 0xFF0;
+  m.bit_i = bits::kEighths(0xFF);
   m.line_i = 1;
   m.rx_start_i = 5;
   block.clock();
@@ -48,12 +46,13 @@ TEST(DslPhyBlock, RandomBits_LeaveAndEnterAtTheirTicks) {
       for (unsigned tick = 0; tick < 8; ++tick) {
         m.line_i = static_cast<std::uint8_t>(random.below(2));
         if (tick == 0) {
-          m.bit_i = static_cast<std::uint16_t>(eighths << kEighths | (drive ? kDrive : 0U) |
-                                               (bit == turn ? kTurn : 0U));
+          m.bit_i = static_cast<std::uint16_t>(bits::kEighths(eighths) | bits::kDrive(drive) |
+                                               bits::kTurn(bit == turn));
           m.eval();
           ASSERT_EQ(m.slot_o, 1);
         } else {
-          m.bit_i = static_cast<std::uint16_t>(random.below(1U << 12U));  // not looked at
+          m.bit_i =
+              static_cast<std::uint16_t>(random.below(1U << bits::kAllBits));  // not looked at
           m.eval();
           ASSERT_EQ(m.slot_o, 0);
         }
@@ -61,8 +60,8 @@ TEST(DslPhyBlock, RandomBits_LeaveAndEnterAtTheirTicks) {
         block.clock();
         ASSERT_EQ(m.line_o, eighths >> (7 - tick) & 1U) << "bit " << bit << " tick " << tick;
         ASSERT_EQ(m.drive_o, drive);
-        if ((m.stream_o >> kValid & 1U) == 0) continue;
-        const unsigned number = m.stream_o >> kNumber & 0x3FFU;
+        if (stream::kValid.of(m.stream_o) == 0) continue;
+        const auto number = static_cast<unsigned>(stream::kNumber.of(m.stream_o));
         ASSERT_EQ(number, taken++);
         const std::size_t at = turn * 8 + start + number;
         ASSERT_EQ(levels.size(), at + 1 + 2) << "two flops behind the sample";
@@ -71,7 +70,7 @@ TEST(DslPhyBlock, RandomBits_LeaveAndEnterAtTheirTicks) {
           expected = expected << 1U | (levels[i] ? 1U : 0U);
         }
         if (at >= 8) {
-          ASSERT_EQ(m.stream_o & 0x1FFU, expected);
+          ASSERT_EQ(stream::kLevels.of(m.stream_o), expected);
         }
       }
     }
@@ -82,13 +81,13 @@ TEST(DslPhyBlock, RandomBits_LeaveAndEnterAtTheirTicks) {
 TEST(DslPhyBlock, Reset_LineIsFreeAndTheFirstEdgeTakesABit) {
   mb4test::Block<Vdsl_phy> block;
   auto& m = block.model;
-  m.bit_i = kDrive;
+  m.bit_i = bits::kDrive(1);
   m.line_i = 1;
   m.rx_start_i = 0;
   block.clock();
   EXPECT_EQ(m.drive_o, 0);
   EXPECT_EQ(m.line_o, 1);
-  EXPECT_EQ(m.stream_o >> kValid, 0U);
+  EXPECT_EQ(stream::kValid.of(m.stream_o), 0U);
   m.rst_ni = 1;
   block.clock();
   EXPECT_EQ(m.drive_o, 1);

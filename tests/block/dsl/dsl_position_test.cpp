@@ -217,7 +217,7 @@ class DslPositionBlock : public testing::Test {
     };
     dsl_frames::send(port, words, gap, [this] { clock(); });
     status.quality = random.below(16);
-    status.delay = random.below(16);
+    status.place = random.below(16) << 8U;
     status.state = random.below(16);
     status.reason = random.below(8);
     m.status_i = status.bits();
@@ -277,7 +277,7 @@ class DslPositionBlock : public testing::Test {
     ASSERT_EQ(record[kStatus], bit(motion.lost(), 0) | 0b110U | bit(channels[0].valid, 3) |
                                    bit(channels[1].valid, 4) | bit(error, 5) |
                                    bit(channels[0].error, 6) | bit(channels[1].error, 7));
-    ASSERT_EQ(record[kStatus + 1], status.delay << 4U | status.quality);
+    ASSERT_EQ(record[kStatus + 1], status.place >> 8U << 4U | status.quality);
     ASSERT_EQ(record[kStatus + 2], 8) << "a running frame";
     ASSERT_EQ(record[kStatus + 3], status.reason);
     ASSERT_EQ(Told(v.told_o).missing, missing);

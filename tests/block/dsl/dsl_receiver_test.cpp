@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "Vdsl_receiver.h"
+#include "places.hpp"
 #include "sim/masters/dsl_model/receiver.hpp"
 #include "tests/block/dsl/dsl_waveform.hpp"
 #include "tests/support/model_context.hpp"
@@ -39,9 +40,9 @@ class DslReceiverBlock : public testing::TestWithParam<SampleRule> {
     rest(16);
   }
 
-  // dsl_pkg::stream_t.
   void show(bool valid, unsigned number) {
-    m.stream_i = (valid ? 1U : 0U) << 19 | (number & 0x3FFU) << 9 | levels;
+    using namespace mb4test::places::dsl_pkg::stream_t;
+    m.stream_i = static_cast<std::uint32_t>(kValid(valid) | kNumber(number) | kLevels(levels));
   }
   void rest(unsigned clocks) {
     for (unsigned i = 0; i < clocks; ++i) {

@@ -27,33 +27,9 @@ using dsl_registers::WordOfRecord;
 constexpr unsigned kNewest = 7;
 constexpr unsigned kSummary = 37;  // in a record
 constexpr unsigned kStatus2 = 45;
-// Bits of dsl_pkg::safe_checks_t.
-constexpr unsigned kMarked1 = 1U << 4U;
-constexpr unsigned kMarked2 = 1U << 5U;
-
-// dsl_pkg::line_status_t, the last field first.
-struct Status {
-  unsigned place = 0, edges = 0, rssi = 0, low = 0, quality = 0, identity = 0, reason = 0,
-           state = 0;
-  std::uint64_t bits() const {
-    std::uint64_t all = 0;
-    unsigned at = 0;
-    const auto add = [&all, &at](unsigned value, unsigned size) {
-      all |= std::uint64_t{value & ((1U << size) - 1)} << at;
-      at += size;
-    };
-    add(place, 12);
-    add(edges, 8);
-    add(rssi, 4);
-    add(low, 1);
-    add(quality, 4);
-    add(0, 6);
-    add(identity, 20);
-    add(reason, 3);
-    add(state, 4);
-    return all;
-  }
-};
+namespace at = mb4test::places::dsl_pkg;
+constexpr unsigned kMarked1 = at::safe_checks_t::kMarked1(1);
+constexpr unsigned kMarked2 = at::safe_checks_t::kMarked2(1);
 
 // dsl_pkg::told_t without what is told of the acceleration.
 struct ToldPort {
@@ -61,8 +37,10 @@ struct ToldPort {
   unsigned missing = 0;
   bool safe1_valid = false, safe1_error = false, safe2_valid = false, safe2_error = false;
   unsigned bits() const {
-    return checks << 11U | missing << 4U | (safe1_valid ? 8U : 0U) | (safe1_error ? 4U : 0U) |
-           (safe2_valid ? 2U : 0U) | (safe2_error ? 1U : 0U);
+    using namespace at::told_t;
+    return static_cast<unsigned>(kChecks(checks) | kMissing(missing) | kSafe1Valid(safe1_valid) |
+                                 kSafe1Error(safe1_error) | kSafe2Valid(safe2_valid) |
+                                 kSafe2Error(safe2_error));
   }
 };
 
@@ -161,7 +139,7 @@ class DslRegsBlock : public testing::TestWithParam<bool> {
   mb4test::Block<Vdsl_host_top> block;
   Vdsl_host_top& m = block.model;
   dsl_frames::AnswerPort answer;
-  Status status;
+  dsl_frames::StatusPort status;
   ToldPort told;
   Record newest{};
   std::array<Record, kGroups> held{};
@@ -510,8 +488,8 @@ TEST_P(DslRegsBlock, IntFollowsEventsAndMasks_AndItsRiseIsAnInterrupt) {
     std::array<unsigned, 2> pulses{};
     const auto counted = [&] {
       clock();
-      pulses[0] += m.interrupts_o & 1U;
-      pulses[1] += m.interrupts_o >> 4U & 1U;
+      pulses[0] += at::causes_t::kMainEvent.of(m.interrupts_o);
+      pulses[1] += at::causes_t::kSafeEvent.of(m.interrupts_o);
     };
     status.state = prst ? 0 : 1;
     counted();
