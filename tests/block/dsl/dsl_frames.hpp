@@ -109,9 +109,10 @@ struct StatusPort {
   unsigned place = 0;
 
   std::uint64_t bits() const {
-    using namespace at::line_status_t;
-    return kState(state) | kReason(reason) | kIdentity(identity) | kWidth(width - 8) |
-           kQuality(quality) | kLow(low) | kRssi(rssi) | kEdges(edges) | kPlace(place);
+    namespace to = at::line_status_t;
+    return to::kState(state) | to::kReason(reason) | to::kIdentity(identity) |
+           to::kWidth(width - 8) | to::kQuality(quality) | to::kLow(low) | to::kRssi(rssi) |
+           to::kEdges(edges) | to::kPlace(place);
   }
 };
 

@@ -282,13 +282,13 @@ TEST_P(DslRegsBlock, LimitOfMissing_IsWrittenAtTheAddressOfThePersonality) {
 
 TEST_P(DslRegsBlock, Status_IsOfNow) {
   for (unsigned i = 0; i < 300; ++i) {
-    status = {.place = random.below(4096),
-              .edges = random.below(256),
-              .rssi = random.below(13),
-              .quality = random.below(16),
-              .identity = random.below(1U << 20U),
+    status = {.state = random.below(9),
               .reason = random.below(8),
-              .state = random.below(9)};
+              .identity = random.below(1U << 20U),
+              .quality = random.below(16),
+              .rssi = random.below(13),
+              .edges = random.below(256),
+              .place = random.below(4096)};
     told = {.missing = random.below(32),
             .safe1_valid = random.below(2) != 0,
             .safe1_error = random.below(2) != 0,
@@ -488,8 +488,8 @@ TEST_P(DslRegsBlock, IntFollowsEventsAndMasks_AndItsRiseIsAnInterrupt) {
     std::array<unsigned, 2> pulses{};
     const auto counted = [&] {
       clock();
-      pulses[0] += at::causes_t::kMainEvent.of(m.interrupts_o);
-      pulses[1] += at::causes_t::kSafeEvent.of(m.interrupts_o);
+      pulses[0] += at::causes_t::kMainEvent.of(m.interrupts_o) != 0 ? 1 : 0;
+      pulses[1] += at::causes_t::kSafeEvent.of(m.interrupts_o) != 0 ? 1 : 0;
     };
     status.state = prst ? 0 : 1;
     counted();
