@@ -341,6 +341,9 @@ inline Result<void> Procedures::access_step(ChipState& chip, Operation& op, std:
     return Error::kWrongMode;
   }
   chip.set_waits(ChipState::kForRequest, false);
+  if (op.good_ && chip.automatic && chip.checks_all() && reads_zeros(op)) {
+    chip.watch.held = true;
+  }
   const Result<void> done = access_stage(chip, op, now_us);
   if (done || chip.control.kind == ControlState::Kind::kNone) {
     return done;
@@ -381,9 +384,6 @@ inline bool Procedures::reads_zeros(const Operation& op) {
 inline Result<void> Procedures::access_stage(ChipState& chip, Operation& op, std::uint32_t now_us) {
   if (!op.good_ && !takes_failure(op.stage_)) {
     return Error::kTransport;
-  }
-  if (op.good_ && chip.automatic && chip.checks_all() && reads_zeros(op)) {
-    chip.watch.held = true;
   }
   switch (op.stage_) {
     case kRecover:
