@@ -70,7 +70,7 @@ module dsl_sample (
   logic        zero_now;             // the first 0 of the first window
   logic        late;                 // ... too late
   logic [9:0]  away;                 // of the next sample from the one behind the place
-  logic        near_end_q, inside_q; // this sample; the next one behind the first 0 is inside
+  logic        near_end_q, inside_q; // of this sample; of the next one: it follows the first 0
   logic        near_end;
   logic        ranged;
   logic        counts;

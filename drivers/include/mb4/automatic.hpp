@@ -200,8 +200,8 @@ class Automatic {
   //
   // Not touched: kInvalidArgument (the slave is no enabled sensor), kWrongMode (automatic frames do
   // not run), kBusy as for poll(). kNoData: no frame with data of this slave has ended since the
-  // last call; or, with SpiCheck::kFull, a write or a command in front of the first frame has made
-  // this call drop what waits. kCrc: one has, and its CRC was wrong; told once for each frame,
+  // last call; or, with SpiCheck::kFull, a register access or a command has read zeros, and this
+  // call drops what waits. kCrc: one has, and its CRC was wrong; told once for each frame,
   // without a stored CRC as for poll(). kSlaveError: one has, and its nE is 0; Result::reading()
   // has it. kNoWord: as for poll(). kTimeout, kLineError, kCorrupted, kTransport, kNotDetected,
   // kBankSwitched as for poll().

@@ -8,6 +8,7 @@
 #include <cstdlib>
 
 #include "Vdsl_tx.h"
+#include "places.hpp"
 #include "sim/masters/dsl_model/frame_plan.hpp"
 #include "tests/support/model_context.hpp"
 
@@ -15,14 +16,16 @@ namespace {
 
 using namespace mb4::sim::dsl_model;
 
-// The fields of dsl_pkg::bit_t.
+namespace bits = mb4test::places::dsl_pkg::bit_t;
+namespace plans = mb4test::places::dsl_pkg::plan_t;
+
 struct Bit {
   explicit Bit(unsigned port)
-      : eighths(port >> 4),
-        drive((port >> 3 & 1) != 0),
-        first((port >> 2 & 1) != 0),
-        edge((port >> 1 & 1) != 0),
-        turn((port & 1) != 0) {}
+      : eighths(static_cast<unsigned>(bits::kEighths.of(port))),
+        drive(bits::kDrive.of(port) != 0),
+        first(bits::kFirst.of(port) != 0),
+        edge(bits::kEdgeHere.of(port) != 0),
+        turn(bits::kTurn.of(port) != 0) {}
   unsigned eighths;
   bool drive, first, edge, turn;
 };
@@ -33,10 +36,10 @@ struct Frame {
   FrameShape shape;
   unsigned added = 0;
 
-  // dsl_pkg::plan_t.
   unsigned port() const {
-    return (answer ? 1U : 0U) << 24 | parameter << 16 | shape.extra << 12 | shape.rest << 9 |
-           added << 5 | shape.blocks;
+    return static_cast<unsigned>(plans::kAnswer(answer) | plans::kParameterByte(parameter) |
+                                 plans::kExtra(shape.extra) | plans::kRest(shape.rest) |
+                                 plans::kAdded(added) | plans::kBlocks(shape.blocks));
   }
 };
 

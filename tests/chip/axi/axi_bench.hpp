@@ -108,6 +108,16 @@ class AxiBench {
   sim::Time period;  // of the clock, ps
 };
 
+// A frame of channel 1 whose SL stands at `level` ("0" or "1"): no CRC of a frame before is shown.
+inline void expect_frame_without_crc(AxiBench& bench, const std::string& level) {
+  bench.simulator.inject(
+      "[[fault]]\nkind = \"stuck\"\nchannel = 1\nat_us = 1\nfor_us = 60\nlevel = " + level + "\n");
+  bench.simulator.advance(5 * sim::kPsPerUs);
+  ASSERT_TRUE(bench.frame()) << level;
+  EXPECT_EQ(bench.read(axireg::kAddrReceivedCrc), 0U) << level;
+  EXPECT_EQ(bench.read(axireg::kAddrCalculatedCrc), 0U) << level;
+}
+
 }  // namespace mb4test
 
 #endif  // TESTS_CHIP_AXI_BENCH_HPP_
