@@ -179,7 +179,7 @@ class Automatic {
   //
   // Errors: kWrongMode (automatic frames do not run; not touched), kBusy (not touched: between the
   // steps of plan_actuator() with SpiCheck::kFull; while an operation compares the configuration;
-  // without SpiCheck::kFull between a request and its instruction), kTransport, kNotDetected,
+  // between a request and its instruction), kTransport, kNotDetected,
   // kBankSwitched;
   // kCorrupted (HOLDBANK is not in the chip). On error `frame` holds no Reading.
   // kTimeout, kLineError (SL is 0): frames stay away for more than two periods and the step of

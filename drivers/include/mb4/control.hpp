@@ -81,8 +81,8 @@ namespace mb4 {
 // (kVerify, kNotDetected, kTransport), and the Device counts as not configured. This takes four
 // transfers more. Behind each reading of data, whose right answer may be 0, a witness follows: the
 // status and 0xF5, which show a read that was an instruction. Each write of RDATA also reads the
-// registers that one wrong bit of its address would have changed. Without SpiCheck::kFull reads of
-// positions are kBusy from the request to its instruction.
+// registers that one wrong bit of its address would have changed. Reads of positions are kBusy
+// from the request to its instruction.
 //
 // Registers go in parts of eight, each in a transfer of its own. After a failed call BREAK comes
 // first, before anything of the access is written: two transfers and 100 us more, three with

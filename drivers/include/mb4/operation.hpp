@@ -43,7 +43,7 @@ struct Procedures;
 // includes whole reads of positions (Automatic::plan_slave(), plan(), poll(), poll_slave()) if
 // automatic frames run. They are kBusy while an actuator holds the bank, between the steps of its
 // operation with SpiCheck::kFull; while an operation compares the configuration, because something
-// has read back differently; and without SpiCheck::kFull between the request of an access and its
+// has read back differently; and between the request of an access and its
 // instruction. A plan_verify() of another object is allowed then too. No other call on the Device
 // may come between the plan call and the end.
 //

@@ -397,9 +397,14 @@ TEST(DriverBus, ReadingOfZerosIsAWrite_NoForeignPosition) {
   const std::array<std::uint8_t, 2> zeros{};
   std::array<std::uint8_t, 2> out{};
   for (const bool writes : {true, false}) {
-    const std::uint64_t word = (writes ? 0xD000080 : 0xD005A80) ^ kFits;
-    for (unsigned turn = 0; turn < (writes ? 8U : 16U); ++turn) {
+    // What SCDATA1 holds behind each reading of RDATA: 0x80 and the fillers. A read has one of
+    // RDATA1 alone, and then one of all.
+    const std::vector<std::uint64_t> behind =
+        writes ? std::vector<std::uint64_t>{0xD000080}
+               : std::vector<std::uint64_t>{0xD005A80, 0xD5A5A80};
+    for (unsigned turn = 0; turn < 8 * behind.size(); ++turn) {
       const unsigned which = turn / 8;  // of the readings
+      const std::uint64_t word = behind[which] ^ kFits;
       const unsigned phase = turn % 8;  // of the frames
       SCOPED_TRACE((writes ? "write, reading " : "read, reading ") + std::to_string(which) +
                    ", phase " + std::to_string(phase));

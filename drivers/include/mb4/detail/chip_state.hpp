@@ -71,8 +71,8 @@ struct ChipState {
   // after the first transfer of a call sets this flag.
   bool recover_first = true;
   // Why reads of positions are kBusy: an actuator holds the bank between its steps; a disturbed
-  // write may have changed the configuration, which the operation compares now; without
-  // SpiCheck::kFull, a request is in the chip and not yet begun, and the 0x02 of a read with one
+  // write may have changed the configuration, which the operation compares now; a
+  // request is in the chip and not yet begun, and the 0x02 of a read with one
   // wrong bit (0xF1 and 0xE1) would make another one of it.
   static constexpr std::uint8_t kForActuator = 1;
   static constexpr std::uint8_t kForProof = 2;
