@@ -16,6 +16,7 @@ axi_page.sv
 axi_counters.sv
 axi_delays.sv
 axi_access.sv
+axi_eye.sv
 axi_last.sv
 axi_extras.sv
 axi_core.sv

@@ -27,6 +27,11 @@
 // Access = 1: the frame carries the CDM bit cdm_i[CDS], taken when it begins. MA shows it inverted
 // until the timeout has ended.
 //
+// FrameSampler = 1: biss_frame_sampler finds the start bit and takes the bits of the word, once the
+// last one has come; biss_delay_sampler finds the acknowledge, takes CDS and ends MA. It may see
+// the start bit one bit early, so MA has one rising edge more. Outside of 10 to 20 clocks a bit all
+// is as with FrameSampler = 0. eye_o is of the last frame that came to its end this way, or 0.
+//
 // Misuse: start_i while busy_o is 1 starts no frame; word_o.good and word_o.crc_bad go to 0.
 // frame_i must not change while frame_o is 1, nor rule_i while busy_o is 1.
 // Source: hello-fpga BiSS-C master manual 1.1 and 2.4; docs/axi.md.
@@ -38,7 +43,8 @@ module axi_channel #(
   parameter int unsigned CountW     = 12,    // bits of StartLimit and of the timeout, 7 to 20
   parameter bit          Wide       = 1'b0,  // up to 64 bits of position
   parameter bit          AnyCrc     = 1'b0,  // 0: rule_i.crc_* are those of 0x43, whatever they are
-  parameter bit          Access     = 1'b0   // CDM
+  parameter bit          Access     = 1'b0,  // CDM
+  parameter bit          FrameSampler = 1'b0
 ) (
   input  logic       clk_i,
   input  logic       rst_ni,
@@ -62,6 +68,7 @@ module axi_channel #(
   output axi_pkg::word_t   word_o,
   output axi_pkg::more_t   more_o,
   output axi_pkg::event_t  event_o,
+  output axi_pkg::eye_t    eye_o,
   // pins
   output logic       ma_o,
   input  logic       slo_i
@@ -113,6 +120,9 @@ module axi_channel #(
   logic        limit;          // the timeout has lasted as long as it can
   logic        rests;          // MA is 1 and stays 1
   logic        sl, ack, late, bit_valid, sl_bit;
+  logic        framed;         // biss_frame_sampler takes the word
+  logic        started;        // with bit_valid: the start bit has come
+  logic        word_valid, word_bit;
   logic [9:0]  delay;
   logic        rise, ma_clocks, ma, unused_released, unused_release;
   logic        crc_error;
@@ -123,11 +133,12 @@ module axi_channel #(
   logic [3:0]  crc_last;
   logic        unused;
 
-  biss_delay_sampler u_sampler (
+  biss_delay_sampler #(.Median(FrameSampler)) u_sampler (
     .clk_i,
     .rst_ni,
     .sl_i        (slo_i),
     .half_last_i (frame_i.half_last),
+    .median_i    (framed),
     .clear_i     (start),
     .armed_i     (state_q == ACK),
     .sl_o        (sl),
@@ -174,8 +185,8 @@ module axi_channel #(
     .load_i         (state_q == CDS),
     .data_i         (state_q == DATA),
     .crc_i          (state_q == CRC),
-    .bit_valid_i    (bit_valid),
-    .bit_i          (sl_bit),
+    .bit_valid_i    (word_valid),
+    .bit_i          (word_bit),
     .ended_i        (ended_q),
     .failed_i       (fail),
     .late_i         (late_start),
@@ -187,6 +198,61 @@ module axi_channel #(
     .word_o,
     .more_o
   );
+
+  if (FrameSampler) begin : gen_frame_sampler
+    logic usable, rose, frame_valid, frame_bit, eye_valid, taken, shown;
+    logic [4:0] width, last;
+    logic       eye_valid_q;
+    logic [4:0] eye_width_q;
+    logic [4:0] eye_last_q;
+
+    biss_frame_sampler u_frame_sampler (
+      .clk_i,
+      .rst_ni,
+      .sl_i        (sl),
+      .half_last_i (frame_i.half_last),
+      .bit_last_i  (frame_i.edges),
+      .clear_i     (start),
+      .ack_i       (ack),
+      .usable_o    (usable),
+      .started_o   (rose),
+      .bit_valid_o (frame_valid),
+      .bit_o       (frame_bit),
+      .eye_valid_o (eye_valid),
+      .eye_width_o (width),
+      .eye_last_o  (last)
+    );
+
+    assign framed     = usable;
+    assign taken      = usable && (state_q == DATA || state_q == CRC);
+    assign started    = usable ? rose : sl_bit;
+    assign word_valid = taken ? frame_valid : bit_valid;
+    assign word_bit   = taken ? frame_bit : sl_bit;
+    assign shown      = ended_q && eye_valid && enabled_i && !clear_i;
+
+    always_ff @(posedge clk_i or negedge rst_ni) begin
+      if (!rst_ni) begin
+        eye_valid_q <= 1'b0;
+        eye_width_q <= '0;
+        eye_last_q  <= '0;
+      end else if (clear_i || !enabled_i || ended_q || fail || late_start) begin
+        eye_valid_q <= shown;
+        eye_width_q <= width & {5{shown}};
+        eye_last_q  <= last & {5{shown}};
+      end
+    end
+
+    assign eye_o.valid = eye_valid_q;
+    assign eye_o.used  = usable;
+    assign eye_o.width = eye_width_q;
+    assign eye_o.last  = eye_last_q;
+  end else begin : gen_no_frame_sampler
+    assign framed     = 1'b0;
+    assign started    = sl_bit;
+    assign word_valid = bit_valid;
+    assign word_bit   = sl_bit;
+    assign eye_o      = '0;
+  end
 
   // If CDM depends on CDS, MA goes on until CDS has come.
   if (Access) begin : gen_access
@@ -220,7 +286,7 @@ module axi_channel #(
   assign running     = state_q != IDLE && state_q != TIMEOUT && state_q != STOP &&
                        state_q != BROKEN;
   assign no_ack      = state_q == ACK && !ack && late;
-  assign no_start    = state_q == START && bit_valid && !sl_bit && count_q == START_LAST;
+  assign no_start    = state_q == START && bit_valid && !started && count_q == START_LAST;
   assign breaks      = running && (clear_i || !enabled_i);
   assign fail        = no_ack || no_start || breaks;
   assign limit       = count_q == rule_i.timeout_last[CountW-1:0];
@@ -253,7 +319,7 @@ module axi_channel #(
         // SLO is 0 for as long as the encoder processes, then 1 for one bit.
         if (bit_valid) begin
           count_d = count_q + ONE;
-          if (sl_bit) state_d = CDS;
+          if (started) state_d = CDS;
         end
       end
       CDS: begin
@@ -263,7 +329,7 @@ module axi_channel #(
       end
       DATA: begin
         // Position, error, warning.
-        if (bit_valid) begin
+        if (word_valid) begin
           count_d = count_q + ONE;
           if (count_q[6:0] == frame_i.data_last) begin
             state_d = CRC;
@@ -272,15 +338,16 @@ module axi_channel #(
         end
       end
       CRC: begin
-        if (bit_valid) begin
+        if (word_valid) begin
           count_d = count_q + ONE;
           if (count_q[3:0] == crc_last) state_d = STOP;
         end
       end
       STOP: begin
-        // SLO falls with the last edge of MA. Before that its level is the last CRC bit.
+        // SLO falls with the last edge of MA. Before that its level is the last CRC bit. A short
+        // word can be complete before MA has sent the edge that is more.
         count_d = '0;
-        if (bit_valid) state_d = TIMEOUT;
+        if (bit_valid && !(framed && ma_clocks)) state_d = TIMEOUT;
       end
       TIMEOUT: begin
         // SLO is 0 until the encoder is ready.
@@ -301,12 +368,12 @@ module axi_channel #(
 
   always_comb begin
     ahead_d = ahead_q;
-    if (state_q == START && bit_valid && !sl_bit) begin
+    if (state_q == START && bit_valid && !started) begin
       if (!rise) ahead_d = ahead_q - 7'd1;
     end else if (rise && !all_sent) begin
       ahead_d = ahead_q + 7'd1;
     end
-    if (start) ahead_d = '0;
+    if (start) ahead_d = {7{framed}};  // -1: one edge more
   end
 
   always_ff @(posedge clk_i or negedge rst_ni) begin

@@ -80,6 +80,7 @@ module axi_core #(
   localparam bit CRC     = Extras[axi_pkg::EXTRA_CRC];
   localparam bit TIMEOUT = Extras[axi_pkg::EXTRA_TIMEOUT];
   localparam bit ACCESS  = Extras[axi_pkg::EXTRA_ACCESS];
+  localparam bit FRAMES  = Extras[axi_pkg::EXTRA_FRAME_SAMPLER];
   localparam bit ALIGN   = Extras[axi_pkg::EXTRA_ALIGN] && Channels > 1;
   localparam int unsigned LONGEST = StartLimit > TimeoutLimit ? StartLimit : TimeoutLimit;
   localparam int unsigned COUNT_W = TIMEOUT ? 20 : LONGEST > 128 ? $clog2(LONGEST) : 7;
@@ -113,6 +114,7 @@ module axi_core #(
   logic [Channels*axi_pkg::WORD_W-1:0]   words;
   logic [Channels*axi_pkg::MORE_W-1:0]   mores;
   logic [Channels*axi_pkg::EVENT_W-1:0]  events;
+  logic [Channels*axi_pkg::EYE_W-1:0]    eyes;
   logic [Channels*2-1:0]                 cdm;
   logic [Channels-1:0] channel_start;
   logic [Channels-1:0] pending;          // a shifted start is to come
@@ -236,7 +238,8 @@ module axi_core #(
     end
 
     axi_channel #(
-      .StartLimit(StartLimit), .CountW(COUNT_W), .Wide(WIDE), .AnyCrc(CRC), .Access(ACCESS)
+      .StartLimit(StartLimit), .CountW(COUNT_W), .Wide(WIDE), .AnyCrc(CRC), .Access(ACCESS),
+      .FrameSampler(FRAMES)
     ) u_channel (
       .clk_i,
       .rst_ni         (rst_n),
@@ -257,6 +260,7 @@ module axi_core #(
       .word_o         (words[i*axi_pkg::WORD_W +: axi_pkg::WORD_W]),
       .more_o         (mores[i*axi_pkg::MORE_W +: axi_pkg::MORE_W]),
       .event_o        (events[i*axi_pkg::EVENT_W +: axi_pkg::EVENT_W]),
+      .eye_o          (eyes[i*axi_pkg::EYE_W +: axi_pkg::EYE_W]),
       .ma_o           (ma_o[i]),
       .slo_i          (slo_i[i])
     );
@@ -353,6 +357,7 @@ module axi_core #(
     .results_i   (results),
     .words_i     (words),
     .mores_i     (mores),
+    .eyes_i      (eyes),
     .ma_shift_i  (ma_shift),
     .start_o     (channel_start),
     .pending_o   (pending),

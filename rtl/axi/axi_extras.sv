@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What the BiSS C master has beyond its document, as far as it is no part of a channel: the page,
-// counters, line delays, register access, last words. Extras says which of them there are; without
+// counters, line delays, register access, last words, eyes. Extras says which of them there are; without
 // any nothing is built, and start_o is start_i. EXTRA_ALIGN acts without EXTRA_PAGE, the others do
 // not.
 //
@@ -34,6 +34,7 @@ module axi_extras #(
   input  logic [Channels*axi_pkg::RESULT_W-1:0] results_i,
   input  logic [Channels*axi_pkg::WORD_W-1:0]   words_i,
   input  logic [Channels*axi_pkg::MORE_W-1:0]   mores_i,
+  input  logic [Channels*axi_pkg::EYE_W-1:0]    eyes_i,
   input  logic [Channels-1:0] ma_shift_i,
   output logic [Channels-1:0] start_o,
   output logic [Channels-1:0] pending_o,   // a shifted start is to come
@@ -49,8 +50,8 @@ module axi_extras #(
   // A single channel has nothing to be aligned to.
   localparam bit ALIGN = Extras[axi_pkg::EXTRA_ALIGN] && Channels > 1;
 
-  logic [31:0] page_data, counter_data, delay_data, access_data, last_data;
-  logic        alarm, access_end;
+  logic [31:0] page_data, counter_data, delay_data, access_data, last_data, eye_data;
+  logic        delay_alarm, eye_alarm, access_end;
   logic        unused;
 
   if (Extras[axi_pkg::EXTRA_PAGE]) begin : gen_page
@@ -66,7 +67,7 @@ module axi_extras #(
       .skip_i,
       .done_i,
       .bad_i        ((enabled_i & ~good_i) != '0),
-      .alarm_i      (alarm),
+      .alarm_i      (delay_alarm || eye_alarm),
       .access_end_i (access_end),
       .sense_i,
       .overrun_i,
@@ -110,14 +111,14 @@ module axi_extras #(
       .start_o,
       .pending_o,
       .busy_o    (measuring_o),
-      .alarm_o   (alarm)
+      .alarm_o   (delay_alarm)
     );
   end else begin : gen_no_delays
     assign delay_data  = '0;
     assign start_o     = {Channels{start_i}};
     assign pending_o   = '0;
     assign measuring_o = 1'b0;
-    assign alarm       = 1'b0;
+    assign delay_alarm = 1'b0;
   end
 
   if (Extras[axi_pkg::EXTRA_ACCESS]) begin : gen_access
@@ -156,10 +157,28 @@ module axi_extras #(
     assign last_data = '0;
   end
 
-  assign data_o = page_data | counter_data | delay_data | access_data | last_data;
+  if (Extras[axi_pkg::EXTRA_FRAME_SAMPLER]) begin : gen_eye
+    axi_eye #(.Channels(Channels)) u_eye (
+      .clk_i,
+      .rst_ni,
+      .clear_i,
+      .bus_i,
+      .index_i,
+      .data_o   (eye_data),
+      .events_i,
+      .eyes_i,
+      .alarm_o  (eye_alarm)
+    );
+  end else begin : gen_no_eye
+    assign eye_data  = '0;
+    assign eye_alarm = 1'b0;
+  end
+
+  assign data_o = page_data | counter_data | delay_data | access_data | last_data | eye_data;
   assign unused = (^switches_i) ^ (^bus_i) ^ (^index_i) ^ (^events_i) ^ (^results_i) ^
-                  (^words_i) ^ (^mores_i) ^ check_i ^
+                  (^words_i) ^ (^mores_i) ^ (^eyes_i) ^ check_i ^
                   (^ma_shift_i) ^ (^enabled_i) ^ (^good_i) ^ skip_i ^ done_i ^ sense_i ^ overrun_i ^
-                  clear_i ^ clk_i ^ rst_ni ^ tick_i ^ half_next_i ^ alarm ^ access_end;
+                  clear_i ^ clk_i ^ rst_ni ^ tick_i ^ half_next_i ^ delay_alarm ^ eye_alarm ^
+                  access_end;
 
 endmodule

@@ -27,7 +27,7 @@ module axi_page #(
   input  logic        skip_i,
   input  logic        done_i,
   input  logic        bad_i,        // with done_i: a word is bad
-  input  logic        alarm_i,      // a line delay has moved
+  input  logic        alarm_i,      // a line delay has moved, an eye is narrow
   input  logic        access_end_i,
   input  logic        sense_i,      // the external sample clock rose
   input  logic        overrun_i,    // a frame was lost
@@ -48,8 +48,8 @@ module axi_page #(
   logic [31:0] features;
   logic        unused;
 
-  assign features = {11'd0, 5'(Channels), 2'd0, Extras[axi_pkg::EXTRA_LAST], switches_i,
-                     Extras[axi_pkg::EXTRA_ALIGN:0]};
+  assign features = {11'd0, 5'(Channels), 1'b0, Extras[axi_pkg::EXTRA_FRAME_SAMPLER],
+                     Extras[axi_pkg::EXTRA_LAST], switches_i, Extras[axi_pkg::EXTRA_ALIGN:0]};
 
   enc_time u_time (
     .clk_i,

@@ -6,7 +6,7 @@
 package axi_pkg;
 
   // Extras beyond the document: places in parameter EXTRAS of biss_axi. Register FEATURES
-  // has them at the same places, but EXTRA_LAST at 13.
+  // has them at the same places, but EXTRA_LAST at 13, EXTRA_FRAME_SAMPLER at 14.
   localparam int unsigned EXTRA_PAGE      = 0;  // identity, time, interrupt, skipped starts
   localparam int unsigned EXTRA_WIDE      = 1;  // positions of up to 64 bits
   localparam int unsigned EXTRA_CRC       = 2;  // any CRC polynomial up to 16 bits
@@ -17,7 +17,8 @@ package axi_pkg;
   localparam int unsigned EXTRA_ACCESS    = 7;  // registers of encoders
   localparam int unsigned EXTRA_ALIGN     = 8;  // ALIGN_LATCH
   localparam int unsigned EXTRA_LAST      = 9;  // the last word of each channel
-  localparam int unsigned EXTRAS_W        = 10;
+  localparam int unsigned EXTRA_FRAME_SAMPLER = 10;  // biss_frame_sampler, and the eye of each line
+  localparam int unsigned EXTRAS_W        = 11;
 
   // What a frame is, the same for all channels. Registers, taken when the frame starts.
   typedef struct packed {
@@ -84,6 +85,14 @@ package axi_pkg;
     logic [9:0]  calculated_high;
   } more_t;
 
+  // The eye of a channel's line in its last frame. All registers, or 0 without the extra.
+  typedef struct packed {
+    logic        valid;
+    logic        used;          // biss_frame_sampler takes the words at this MA divider
+    logic [4:0]  width;         // clocks without an edge
+    logic [4:0]  last;          // the last of them, behind the rising edge of the start bit
+  } eye_t;
+
   // What happens in a channel. Each of the first five is high for one clock.
   typedef struct packed {
     logic        begun;         // a frame begins and takes CDM
@@ -121,6 +130,9 @@ package axi_pkg;
   localparam int unsigned RESULT_DELAY  = 12;  // place in result_t
   localparam int unsigned MORE_W        = 84;
   localparam int unsigned MORE_POSITION = 20;  // place in more_t
+  localparam int unsigned EYE_W         = 12;
+  localparam int unsigned EYE_VALID     = 11;  // places in eye_t
+  localparam int unsigned EYE_WIDTH     = 5;
   localparam int unsigned EVENT_W       = 7;
   localparam int unsigned EVENT_BEGUN     = 6;  // places in event_t
   localparam int unsigned EVENT_ENDED     = 5;

@@ -7,25 +7,30 @@
 // The ports that both have mean the same.
 //
 // Clock domain: core; SL is asynchronous. Latency: a sample is used three clocks after it was
-// taken.
+// taken, with median_i six clocks.
 //
+// - median_i = 1, with Median = 1: the level is what most of five samples in a row say, so a pulse
+//   of one or two clocks is none. Level and bits come later by this; delay_o is the same.
 // - Delay: delay_o counts the whole clocks from the second rising MA edge (armed_i rises with it)
 //   to the acknowledge, SL = 0. Without line delay it is 0. late_o: it has reached 1023.
 // - Bits: the first bit is taken half an MA period after the clock that saw the acknowledge, the
 //   others each a period later: delay + (k + 1/2) MA periods. The first one still lies
 //   in the acknowledge. bit_valid_o is high for one clock for each bit.
 //
-// Misuse: half_last_i must not change while a frame runs. If SL is already low
+// Misuse: half_last_i and median_i must not change while a frame runs. If SL is already low
 // when armed_i rises, the delay is 0.
 // Source: hello-fpga BiSS-C master manual, register 0x3C; docs/axi.md.
 
 `include "enc_check.svh"
 
-module biss_delay_sampler (
+module biss_delay_sampler #(
+  parameter bit Median = 1'b0
+) (
   input  logic       clk_i,
   input  logic       rst_ni,
   input  logic       sl_i,         // pin
   input  logic [7:0] half_last_i,  // clocks of half an MA period minus 1
+  input  logic       median_i,
   // frame
   input  logic       clear_i,      // a frame begins
   input  logic       armed_i,      // the second rising MA edge has come
@@ -38,10 +43,13 @@ module biss_delay_sampler (
   output logic       bit_o
 );
 
-  localparam logic [9:0] LONGEST = 10'h3FF;
+  localparam logic [9:0]  LONGEST = 10'h3FF;
+  localparam int unsigned LATE    = Median ? 5 : 2;  // most clocks by which sl is late
 
+  logic       level;     // synchronised
   logic       sl;
-  logic [1:0] armed_q;
+  logic       armed;     // as late as sl
+  logic [LATE-1:0] armed_q;
   logic       look;
   logic       hit;
   logic       found_q;
@@ -57,11 +65,40 @@ module biss_delay_sampler (
     .clk_i,
     .rst_ni,
     .data_i (sl_i),
-    .data_o (sl)
+    .data_o (level)
   );
 
-  // SL comes two clocks late; so does the edge from which the delay counts.
-  assign look = armed_q[1] && !found_q;
+  if (Median) begin : gen_median
+    logic [3:0] before_q;
+    logic       most_q;     // the median
+    logic [2:0] ones;
+
+    always_comb begin
+      ones = 3'(level);
+      for (int unsigned i = 0; i < 4; i++) ones = ones + 3'(before_q[i]);
+    end
+
+    always_ff @(posedge clk_i or negedge rst_ni) begin
+      if (!rst_ni) begin
+        before_q <= '1;
+        most_q   <= 1'b1;
+      end else begin
+        before_q <= {before_q[2:0], level};
+        most_q   <= ones > 3'd2;
+      end
+    end
+
+    assign sl    = median_i ? most_q : level;
+    assign armed = median_i ? armed_q[4] : armed_q[1];
+  end else begin : gen_plain
+    logic unused;
+    assign sl     = level;
+    assign armed  = armed_q[1];
+    assign unused = median_i;
+  end
+
+  // SL comes late; so does the edge from which the delay counts.
+  assign look = armed && !found_q;
   assign hit  = look && !sl;
 
   // The carry of this sum compares: half_last_i >= clocks so far.
@@ -77,7 +114,7 @@ module biss_delay_sampler (
       bit_valid_q <= 1'b0;
       bit_q       <= 1'b0;
     end else begin
-      armed_q     <= clear_i ? 2'b00 : {armed_q[0], armed_i};
+      armed_q     <= clear_i ? '0 : {armed_q[LATE-2:0], armed_i};
       found_q     <= !clear_i && (found_q || hit);
       if (clear_i)                                  delay_q <= '0;
       else if (look && sl && delay_q != LONGEST)    delay_q <= delay_q + 10'd1;

@@ -64,6 +64,9 @@
 #define AXI_ADDR_LAST_STATUS 0xA4U /* Last word, status */
 #define AXI_ADDR_LAST_POSITION 0xA8U /* Last word, position */
 #define AXI_ADDR_LAST_POSITION_HIGH 0xACU /* Last word, high word of the position */
+#define AXI_ADDR_EYE 0xB0U /* Eye of the line */
+#define AXI_ADDR_EYE_LIMIT 0xB4U /* Limit of the eye */
+#define AXI_ADDR_EYE_ALARM 0xB8U /* Eye alarm */
 #define AXI_CHANNELS 16U /* Most channels */
 
 /* ---- Registers ------------------------------------------------------------------------------- */
@@ -197,6 +200,15 @@
 #define AXI_RESET_LAST_POSITION_HIGH 0x00000000UL
 #define AXI_WMASK_LAST_POSITION_HIGH 0x00000000UL
 #define AXI_CONST_LAST_POSITION_HIGH 0x00000000UL
+#define AXI_RESET_EYE 0x00000000UL
+#define AXI_WMASK_EYE 0x00000000UL
+#define AXI_CONST_EYE 0x00000000UL
+#define AXI_RESET_EYE_LIMIT 0x00000000UL
+#define AXI_WMASK_EYE_LIMIT 0x0000001FUL
+#define AXI_CONST_EYE_LIMIT 0x00000000UL
+#define AXI_RESET_EYE_ALARM 0x00000000UL
+#define AXI_WMASK_EYE_ALARM 0x0000FFFFUL
+#define AXI_CONST_EYE_ALARM 0x00000000UL
 
 /* ---- Single fields --------------------------------------------------------------------------- */
 
@@ -301,6 +313,12 @@
 #define AXI_CHANNEL_COUNT_SHIFT 16U
 #define AXI_CHANNEL_COUNT_MASK 0x1F0000UL
 #define AXI_CHANNEL_COUNT_RESET 0x00UL
+
+/* HAS_FRAME_SAMPLER, R */
+#define AXI_HAS_FRAME_SAMPLER_ADDR 0x48U
+#define AXI_HAS_FRAME_SAMPLER_SHIFT 14U
+#define AXI_HAS_FRAME_SAMPLER_MASK 0x4000UL
+#define AXI_HAS_FRAME_SAMPLER_RESET 0x00UL
 
 /* HAS_LAST, R */
 #define AXI_HAS_LAST_ADDR 0x48U
@@ -661,6 +679,60 @@
 #define AXI_LAST_POSITION_HIGH_SHIFT 0U
 #define AXI_LAST_POSITION_HIGH_MASK 0xFFFFFFFFUL
 #define AXI_LAST_POSITION_HIGH_RESET 0x00UL
+
+/* EYE_VALID, R */
+#define AXI_EYE_VALID_ADDR 0xB0U
+#define AXI_EYE_VALID_SHIFT 31U
+#define AXI_EYE_VALID_MASK 0x80000000UL
+#define AXI_EYE_VALID_RESET 0x00UL
+
+/* EYE_USED, R */
+#define AXI_EYE_USED_ADDR 0xB0U
+#define AXI_EYE_USED_SHIFT 30U
+#define AXI_EYE_USED_MASK 0x40000000UL
+#define AXI_EYE_USED_RESET 0x00UL
+
+/* EYE_AFTER, R */
+#define AXI_EYE_AFTER_ADDR 0xB0U
+#define AXI_EYE_AFTER_SHIFT 25U
+#define AXI_EYE_AFTER_MASK 0x1E000000UL
+#define AXI_EYE_AFTER_RESET 0x00UL
+
+/* EYE_BEFORE, R */
+#define AXI_EYE_BEFORE_ADDR 0xB0U
+#define AXI_EYE_BEFORE_SHIFT 21U
+#define AXI_EYE_BEFORE_MASK 0x1E00000UL
+#define AXI_EYE_BEFORE_RESET 0x00UL
+
+/* EYE_SMALLEST, R */
+#define AXI_EYE_SMALLEST_ADDR 0xB0U
+#define AXI_EYE_SMALLEST_SHIFT 16U
+#define AXI_EYE_SMALLEST_MASK 0x1F0000UL
+#define AXI_EYE_SMALLEST_RESET 0x00UL
+
+/* EYE_POINT, R */
+#define AXI_EYE_POINT_ADDR 0xB0U
+#define AXI_EYE_POINT_SHIFT 8U
+#define AXI_EYE_POINT_MASK 0x1F00UL
+#define AXI_EYE_POINT_RESET 0x00UL
+
+/* EYE_WIDTH, R */
+#define AXI_EYE_WIDTH_ADDR 0xB0U
+#define AXI_EYE_WIDTH_SHIFT 0U
+#define AXI_EYE_WIDTH_MASK 0x1FUL
+#define AXI_EYE_WIDTH_RESET 0x00UL
+
+/* EYE_LIMIT, R/W */
+#define AXI_EYE_LIMIT_ADDR 0xB4U
+#define AXI_EYE_LIMIT_SHIFT 0U
+#define AXI_EYE_LIMIT_MASK 0x1FUL
+#define AXI_EYE_LIMIT_RESET 0x00UL
+
+/* EYE_ALARM, R, write 1 clears */
+#define AXI_EYE_ALARM_ADDR 0xB8U
+#define AXI_EYE_ALARM_SHIFT 0U
+#define AXI_EYE_ALARM_MASK 0xFFFFUL
+#define AXI_EYE_ALARM_RESET 0x00UL
 
 /* ---- Codes ----------------------------------------------------------------------------------- */
 

@@ -58,6 +58,9 @@ inline constexpr std::uint8_t kAddrStreamStatus = 0xA0;  // Stream status
 inline constexpr std::uint8_t kAddrLastStatus = 0xA4;  // Last word, status
 inline constexpr std::uint8_t kAddrLastPosition = 0xA8;  // Last word, position
 inline constexpr std::uint8_t kAddrLastPositionHigh = 0xAC;  // Last word, high word of the position
+inline constexpr std::uint8_t kAddrEye = 0xB0;  // Eye of the line
+inline constexpr std::uint8_t kAddrEyeLimit = 0xB4;  // Limit of the eye
+inline constexpr std::uint8_t kAddrEyeAlarm = 0xB8;  // Eye alarm
 
 inline constexpr unsigned kChannels = 16;  // Most channels
 
@@ -192,6 +195,15 @@ inline constexpr std::uint32_t kConstLastPosition = 0x00000000;
 inline constexpr std::uint32_t kResetLastPositionHigh = 0x00000000;
 inline constexpr std::uint32_t kWmaskLastPositionHigh = 0x00000000;
 inline constexpr std::uint32_t kConstLastPositionHigh = 0x00000000;
+inline constexpr std::uint32_t kResetEye = 0x00000000;
+inline constexpr std::uint32_t kWmaskEye = 0x00000000;
+inline constexpr std::uint32_t kConstEye = 0x00000000;
+inline constexpr std::uint32_t kResetEyeLimit = 0x00000000;
+inline constexpr std::uint32_t kWmaskEyeLimit = 0x0000001F;
+inline constexpr std::uint32_t kConstEyeLimit = 0x00000000;
+inline constexpr std::uint32_t kResetEyeAlarm = 0x00000000;
+inline constexpr std::uint32_t kWmaskEyeAlarm = 0x0000FFFF;
+inline constexpr std::uint32_t kConstEyeAlarm = 0x00000000;
 
 // ---- Field types --------------------------------------------------------------------------------
 
@@ -291,6 +303,8 @@ using SINGLE_POINT_DATA = Field<0x38, 0, 32, Access::kReadOnly, 0>;
 using LINE_DELAY = Field<0x3C, 0, 10, Access::kReadOnly, 0>;
 // Number of channels.
 using CHANNEL_COUNT = Field<0x48, 16, 5, Access::kReadOnly, 0>;
+// The sampler by frames and the eye of each line.
+using HAS_FRAME_SAMPLER = Field<0x48, 14, 1, Access::kReadOnly, 0>;
 // The last word of each channel.
 using HAS_LAST = Field<0x48, 13, 1, Access::kReadOnly, 0>;
 // ENABLE_ACTIVE_LOW: a 0 in CHANNEL_ENABLE enables a channel.
@@ -325,7 +339,8 @@ using LOST = Field<0x4C, 4, 1, Access::kWriteOneClears, 0>;
 using SENSE = Field<0x4C, 3, 1, Access::kWriteOneClears, 0>;
 // A register access ended.
 using REGISTER_END = Field<0x4C, 2, 1, Access::kWriteOneClears, 0>;
-// A frame ended with a bad word of an enabled channel, or a line delay has moved.
+// A frame ended with a bad word of an enabled channel, a line delay has moved, or an eye was
+// narrow.
 using ERROR = Field<0x4C, 1, 1, Access::kWriteOneClears, 0>;
 // All enabled channels have ended their frames.
 using FRAME = Field<0x4C, 0, 1, Access::kWriteOneClears, 0>;
@@ -417,6 +432,27 @@ using LAST_GOOD = Field<0xA4, 0, 1, Access::kReadOnly, 0>;
 using LAST_POSITION = Field<0xA8, 0, 32, Access::kReadOnly, 0>;
 // Bits 63 to 32 of the position, as copied with LAST_STATUS. Extras LAST and WIDE.
 using LAST_POSITION_HIGH = Field<0xAC, 0, 32, Access::kReadOnly, 0>;
+// The numbers are those of the last frame. 0, and no numbers: it did not end, its MA divider is out
+// of reach, or there was none.
+using EYE_VALID = Field<0xB0, 31, 1, Access::kReadOnly, 0>;
+// The MA divider of the last read is 5 to 10, so the words are taken by frames. 0: by the
+// acknowledge, as without the extra.
+using EYE_USED = Field<0xB0, 30, 1, Access::kReadOnly, 0>;
+// Clocks by which edges could have come earlier than the earliest one, up to the sampling point.
+using EYE_AFTER = Field<0xB0, 25, 4, Access::kReadOnly, 0>;
+// Clocks by which edges could have come later than the latest one, up to the sampling point.
+using EYE_BEFORE = Field<0xB0, 21, 4, Access::kReadOnly, 0>;
+// The smallest EYE_WIDTH since the last time this register was read, and of the last frame then.
+using EYE_SMALLEST = Field<0xB0, 16, 5, Access::kReadOnly, 0>;
+// Place of the sampling point: clocks behind the one in which the start bit rose.
+using EYE_POINT = Field<0xB0, 8, 5, Access::kReadOnly, 0>;
+// Clocks between the latest edge and the earliest one of the next bit; a bit has 2 * MA_DIVIDER
+// clocks.
+using EYE_WIDTH = Field<0xB0, 0, 5, Access::kReadOnly, 0>;
+// A frame whose EYE_WIDTH is less than this sets EYE_ALARM. Extra FRAME_SAMPLER.
+using EYE_LIMIT = Field<0xB4, 0, 5, Access::kReadWrite, 0>;
+// An eye of the channel was narrower than EYE_LIMIT. Writing 1 and a soft reset clear it.
+using EYE_ALARM = Field<0xB8, 0, 16, Access::kWriteOneClears, 0>;
 
 // ---- Codes --------------------------------------------------------------------------------------
 

@@ -62,6 +62,9 @@ package axi_regs_pkg;
   localparam logic [7:0] ADDR_LAST_STATUS = 8'hA4;
   localparam logic [7:0] ADDR_LAST_POSITION = 8'hA8;
   localparam logic [7:0] ADDR_LAST_POSITION_HIGH = 8'hAC;
+  localparam logic [7:0] ADDR_EYE = 8'hB0;
+  localparam logic [7:0] ADDR_EYE_LIMIT = 8'hB4;
+  localparam logic [7:0] ADDR_EYE_ALARM = 8'hB8;
 
   localparam logic [31:0] CHANNELS = 32'd16;  // Most channels
 
@@ -196,6 +199,15 @@ package axi_regs_pkg;
   localparam logic [31:0] RESET_LAST_POSITION_HIGH = 32'h00000000;
   localparam logic [31:0] WMASK_LAST_POSITION_HIGH = 32'h00000000;
   localparam logic [31:0] CONST_LAST_POSITION_HIGH = 32'h00000000;
+  localparam logic [31:0] RESET_EYE = 32'h00000000;
+  localparam logic [31:0] WMASK_EYE = 32'h00000000;
+  localparam logic [31:0] CONST_EYE = 32'h00000000;
+  localparam logic [31:0] RESET_EYE_LIMIT = 32'h00000000;
+  localparam logic [31:0] WMASK_EYE_LIMIT = 32'h0000001F;
+  localparam logic [31:0] CONST_EYE_LIMIT = 32'h00000000;
+  localparam logic [31:0] RESET_EYE_ALARM = 32'h00000000;
+  localparam logic [31:0] WMASK_EYE_ALARM = 32'h0000FFFF;
+  localparam logic [31:0] CONST_EYE_ALARM = 32'h00000000;
 
   // ---- Single fields --------------------------------------------------------------------------
 
@@ -327,6 +339,13 @@ package axi_regs_pkg;
   localparam logic [31:0] CHANNEL_COUNT_MASK = 32'h001F0000;
   localparam logic [4:0] CHANNEL_COUNT_RESET = 5'd0;
 
+  // The sampler by frames and the eye of each line.
+  localparam logic [7:0] HAS_FRAME_SAMPLER_ADDR = 8'h48;
+  localparam logic [31:0] HAS_FRAME_SAMPLER_LSB = 32'd14;
+  localparam logic [31:0] HAS_FRAME_SAMPLER_W = 32'd1;
+  localparam logic [31:0] HAS_FRAME_SAMPLER_MASK = 32'h00004000;
+  localparam logic [0:0] HAS_FRAME_SAMPLER_RESET = 1'd0;
+
   // The last word of each channel.
   localparam logic [7:0] HAS_LAST_ADDR = 8'h48;
   localparam logic [31:0] HAS_LAST_LSB = 32'd13;
@@ -447,7 +466,8 @@ package axi_regs_pkg;
   localparam logic [31:0] REGISTER_END_MASK = 32'h00000004;
   localparam logic [0:0] REGISTER_END_RESET = 1'd0;
 
-  // A frame ended with a bad word of an enabled channel, or a line delay has moved.
+  // A frame ended with a bad word of an enabled channel, a line delay has moved, or an eye was
+  // narrow.
   localparam logic [7:0] ERROR_ADDR = 8'h4C;
   localparam logic [31:0] ERROR_LSB = 32'd1;
   localparam logic [31:0] ERROR_W = 32'd1;
@@ -754,6 +774,72 @@ package axi_regs_pkg;
   localparam logic [31:0] LAST_POSITION_HIGH_W = 32'd32;
   localparam logic [31:0] LAST_POSITION_HIGH_MASK = 32'hFFFFFFFF;
   localparam logic [31:0] LAST_POSITION_HIGH_RESET = 32'd0;
+
+  // The numbers are those of the last frame. 0, and no numbers: it did not end, its MA divider is
+  // out of reach, or there was none.
+  localparam logic [7:0] EYE_VALID_ADDR = 8'hB0;
+  localparam logic [31:0] EYE_VALID_LSB = 32'd31;
+  localparam logic [31:0] EYE_VALID_W = 32'd1;
+  localparam logic [31:0] EYE_VALID_MASK = 32'h80000000;
+  localparam logic [0:0] EYE_VALID_RESET = 1'd0;
+
+  // The MA divider of the last read is 5 to 10, so the words are taken by frames. 0: by the
+  // acknowledge, as without the extra.
+  localparam logic [7:0] EYE_USED_ADDR = 8'hB0;
+  localparam logic [31:0] EYE_USED_LSB = 32'd30;
+  localparam logic [31:0] EYE_USED_W = 32'd1;
+  localparam logic [31:0] EYE_USED_MASK = 32'h40000000;
+  localparam logic [0:0] EYE_USED_RESET = 1'd0;
+
+  // Clocks by which edges could have come earlier than the earliest one, up to the sampling point.
+  localparam logic [7:0] EYE_AFTER_ADDR = 8'hB0;
+  localparam logic [31:0] EYE_AFTER_LSB = 32'd25;
+  localparam logic [31:0] EYE_AFTER_W = 32'd4;
+  localparam logic [31:0] EYE_AFTER_MASK = 32'h1E000000;
+  localparam logic [3:0] EYE_AFTER_RESET = 4'd0;
+
+  // Clocks by which edges could have come later than the latest one, up to the sampling point.
+  localparam logic [7:0] EYE_BEFORE_ADDR = 8'hB0;
+  localparam logic [31:0] EYE_BEFORE_LSB = 32'd21;
+  localparam logic [31:0] EYE_BEFORE_W = 32'd4;
+  localparam logic [31:0] EYE_BEFORE_MASK = 32'h01E00000;
+  localparam logic [3:0] EYE_BEFORE_RESET = 4'd0;
+
+  // The smallest EYE_WIDTH since the last time this register was read, and of the last frame then.
+  localparam logic [7:0] EYE_SMALLEST_ADDR = 8'hB0;
+  localparam logic [31:0] EYE_SMALLEST_LSB = 32'd16;
+  localparam logic [31:0] EYE_SMALLEST_W = 32'd5;
+  localparam logic [31:0] EYE_SMALLEST_MASK = 32'h001F0000;
+  localparam logic [4:0] EYE_SMALLEST_RESET = 5'd0;
+
+  // Place of the sampling point: clocks behind the one in which the start bit rose.
+  localparam logic [7:0] EYE_POINT_ADDR = 8'hB0;
+  localparam logic [31:0] EYE_POINT_LSB = 32'd8;
+  localparam logic [31:0] EYE_POINT_W = 32'd5;
+  localparam logic [31:0] EYE_POINT_MASK = 32'h00001F00;
+  localparam logic [4:0] EYE_POINT_RESET = 5'd0;
+
+  // Clocks between the latest edge and the earliest one of the next bit; a bit has 2 * MA_DIVIDER
+  // clocks.
+  localparam logic [7:0] EYE_WIDTH_ADDR = 8'hB0;
+  localparam logic [31:0] EYE_WIDTH_LSB = 32'd0;
+  localparam logic [31:0] EYE_WIDTH_W = 32'd5;
+  localparam logic [31:0] EYE_WIDTH_MASK = 32'h0000001F;
+  localparam logic [4:0] EYE_WIDTH_RESET = 5'd0;
+
+  // A frame whose EYE_WIDTH is less than this sets EYE_ALARM. Extra FRAME_SAMPLER.
+  localparam logic [7:0] EYE_LIMIT_ADDR = 8'hB4;
+  localparam logic [31:0] EYE_LIMIT_LSB = 32'd0;
+  localparam logic [31:0] EYE_LIMIT_W = 32'd5;
+  localparam logic [31:0] EYE_LIMIT_MASK = 32'h0000001F;
+  localparam logic [4:0] EYE_LIMIT_RESET = 5'd0;
+
+  // An eye of the channel was narrower than EYE_LIMIT. Writing 1 and a soft reset clear it.
+  localparam logic [7:0] EYE_ALARM_ADDR = 8'hB8;
+  localparam logic [31:0] EYE_ALARM_LSB = 32'd0;
+  localparam logic [31:0] EYE_ALARM_W = 32'd16;
+  localparam logic [31:0] EYE_ALARM_MASK = 32'h0000FFFF;
+  localparam logic [15:0] EYE_ALARM_RESET = 16'd0;
 
   // ---- Codes ----------------------------------------------------------------------------------
 

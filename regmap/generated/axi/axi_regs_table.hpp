@@ -48,7 +48,7 @@ inline constexpr std::array<CodeInfo, 8> kCodes{{
 }};
 
 // By address, most significant bit first; constant bits are left out.
-inline constexpr std::array<FieldInfo, 77> kFields{{
+inline constexpr std::array<FieldInfo, 87> kFields{{
     {"SOFT_RESET", nullptr, 0x00, 0, 1, Access::kReadWrite, 0,
      "1 ends running frames and clears results, valid flags and counters, for as long as it is 1. It changes no configuration.", 0, 0},
     {"EXTERNAL_CLOCK", nullptr, 0x04, 0, 1, Access::kReadWrite, 0,
@@ -83,6 +83,8 @@ inline constexpr std::array<FieldInfo, 77> kFields{{
      "From the second rising MA edge of the channel's last frame to the acknowledge on SLO, in whole bus clocks. 1023: there was no acknowledge, or SLO was 0 at the start.", 0, 0},
     {"CHANNEL_COUNT", nullptr, 0x48, 16, 5, Access::kReadOnly, 0,
      "Number of channels.", 0, 0},
+    {"HAS_FRAME_SAMPLER", nullptr, 0x48, 14, 1, Access::kReadOnly, 0,
+     "The sampler by frames and the eye of each line.", 0, 0},
     {"HAS_LAST", nullptr, 0x48, 13, 1, Access::kReadOnly, 0,
      "The last word of each channel.", 0, 0},
     {"ACTIVE_LOW", nullptr, 0x48, 12, 1, Access::kReadOnly, 0,
@@ -118,7 +120,7 @@ inline constexpr std::array<FieldInfo, 77> kFields{{
     {"REGISTER_END", nullptr, 0x4C, 2, 1, Access::kWriteOneClears, 0,
      "A register access ended.", 0, 0},
     {"ERROR", nullptr, 0x4C, 1, 1, Access::kWriteOneClears, 0,
-     "A frame ended with a bad word of an enabled channel, or a line delay has moved.", 0, 0},
+     "A frame ended with a bad word of an enabled channel, a line delay has moved, or an eye was narrow.", 0, 0},
     {"FRAME", nullptr, 0x4C, 0, 1, Access::kWriteOneClears, 0,
      "All enabled channels have ended their frames.", 0, 0},
     {"LOST_ENABLE", nullptr, 0x50, 4, 1, Access::kReadWrite, 0,
@@ -203,6 +205,24 @@ inline constexpr std::array<FieldInfo, 77> kFields{{
      "Bits 31 to 0 of the position, as copied with LAST_STATUS; 0 without a good word. Extra LAST.", 0, 0},
     {"LAST_POSITION_HIGH", nullptr, 0xAC, 0, 32, Access::kReadOnly, 0,
      "Bits 63 to 32 of the position, as copied with LAST_STATUS. Extras LAST and WIDE.", 0, 0},
+    {"EYE_VALID", nullptr, 0xB0, 31, 1, Access::kReadOnly, 0,
+     "The numbers are those of the last frame. 0, and no numbers: it did not end, its MA divider is out of reach, or there was none.", 0, 0},
+    {"EYE_USED", nullptr, 0xB0, 30, 1, Access::kReadOnly, 0,
+     "The MA divider of the last read is 5 to 10, so the words are taken by frames. 0: by the acknowledge, as without the extra.", 0, 0},
+    {"EYE_AFTER", nullptr, 0xB0, 25, 4, Access::kReadOnly, 0,
+     "Clocks by which edges could have come earlier than the earliest one, up to the sampling point.", 0, 0},
+    {"EYE_BEFORE", nullptr, 0xB0, 21, 4, Access::kReadOnly, 0,
+     "Clocks by which edges could have come later than the latest one, up to the sampling point.", 0, 0},
+    {"EYE_SMALLEST", nullptr, 0xB0, 16, 5, Access::kReadOnly, 0,
+     "The smallest EYE_WIDTH since the last time this register was read, and of the last frame then.", 0, 0},
+    {"EYE_POINT", nullptr, 0xB0, 8, 5, Access::kReadOnly, 0,
+     "Place of the sampling point: clocks behind the one in which the start bit rose.", 0, 0},
+    {"EYE_WIDTH", nullptr, 0xB0, 0, 5, Access::kReadOnly, 0,
+     "Clocks between the latest edge and the earliest one of the next bit; a bit has 2 * MA_DIVIDER clocks.", 0, 0},
+    {"EYE_LIMIT", nullptr, 0xB4, 0, 5, Access::kReadWrite, 0,
+     "A frame whose EYE_WIDTH is less than this sets EYE_ALARM. Extra FRAME_SAMPLER.", 0, 0},
+    {"EYE_ALARM", nullptr, 0xB8, 0, 16, Access::kWriteOneClears, 0,
+     "An eye of the channel was narrower than EYE_LIMIT. Writing 1 and a soft reset clear it.", 0, 0},
 }};
 
 }  // namespace biss_axi::regs

@@ -22,6 +22,7 @@ TEST(DelaySamplerBlock, DelayOfKClocks_IsCountedAndBitsAreTakenInTheirMiddle) {
       auto& m = sampler.model;
       m.sl_i = 1;
       m.half_last_i = static_cast<std::uint8_t>(half - 1);
+      m.median_i = 0;
       m.armed_i = 0;
       m.clear_i = 1;
       sampler.reset();
@@ -54,6 +55,7 @@ TEST(DelaySamplerBlock, NoAcknowledge_IsLateAfter1023Clocks) {
   auto& m = sampler.model;
   m.sl_i = 1;
   m.half_last_i = 4;
+  m.median_i = 0;
   m.armed_i = 0;
   m.clear_i = 1;
   sampler.reset();
