@@ -212,6 +212,7 @@ module axi_channel #(
       .sl_i        (sl),
       .half_last_i (frame_i.half_last),
       .bit_last_i  (frame_i.edges),
+      .run_i       (start || state_q != IDLE),
       .clear_i     (start),
       .ack_i       (ack),
       .usable_o    (usable),

@@ -22,6 +22,7 @@
 //   yet is waited for, 16 clocks at most.
 // - eye_valid_o: the eye is that of this frame. It is 1 from two clocks before the first bit on.
 //
+// run_i = 0: nothing changes.
 // usable_o: P is 10 to 20. Outside of it started_o, bit_valid_o and eye_valid_o stay 0.
 //
 // Misuse: half_last_i and bit_last_i must not change while a frame runs. Bits behind the last one
@@ -37,7 +38,8 @@ module biss_frame_sampler (
   input  logic [7:0] half_last_i,  // clocks of half an MA period minus 1
   input  logic [6:0] bit_last_i,   // number of the last CRC bit; the start bit has 3
   // frame
-  input  logic       clear_i,      // a frame begins
+  input  logic       run_i,        // the line is not at rest
+  input  logic       clear_i,      // with run_i: a frame begins
   input  logic       ack_i,        // the acknowledge has come
   // results
   output logic       usable_o,
@@ -122,7 +124,7 @@ module biss_frame_sampler (
       bit_q     <= '0;
       data_q    <= 1'b0;
       marks_q   <= '0;
-    end else begin
+    end else if (run_i) begin
       before_q  <= sl_i;
       ones_q    <= {ones_q[0] && sl_i, ack_i && sl_i};
       started_q <= !clear_i && (started_q || start);
@@ -152,7 +154,7 @@ module biss_frame_sampler (
       last_q  <= '0;
       point_q <= 1'b0;
       read_q  <= 1'b0;
-    end else begin
+    end else if (run_i) begin
       gap_q   <= mark ? 5'd1 : gap_q + 5'd1;
       if (!started_q) begin
         width_q <= '0;
@@ -177,7 +179,7 @@ module biss_frame_sampler (
   assign {time_sum, unused_carry} = {time_q, 1'b1} + {7'd0, step, !point_q};
   assign fetch = read_q && time_q[TIME_W-1:ROW_W] != now_q[TIME_W-1:ROW_W];
   assign move  = !data_q || point_q || fetch;
-  assign write = &now_q[ROW_W-1:0];
+  assign write = run_i && &now_q[ROW_W-1:0];
 
   enc_ram #(.Width(1 << ROW_W), .AddrW(TIME_W - ROW_W)) u_ring (
     .wr_clk_i  (clk_i),
@@ -199,7 +201,7 @@ module biss_frame_sampler (
       fetched_q   <= 1'b0;
       bit_valid_q <= 1'b0;
       level_q     <= 1'b0;
-    end else begin
+    end else if (run_i) begin
       now_q       <= clear_i ? '0 : now_q + 12'd1;
       if (clear_i)   time_q <= '0;
       else if (move) time_q <= time_sum;

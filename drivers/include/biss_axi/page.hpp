@@ -43,6 +43,20 @@ struct LastWord {
   bool late_start = false;  // SLO was 0 at the start
 };
 
+// The eye of a line in the last frame of its channel: clocks of a bit between the latest edge and
+// the earliest one of the next bit. Source: regmap/axi.rdl, EYE.
+struct Eye {
+  // The numbers are those of the last frame; else they are 0: it did not end, or `used` is false.
+  bool valid = false;
+  // The words are taken by frames at this MA divider (10 to 20 clocks a bit).
+  bool used = false;
+  std::uint8_t width = 0;     // clocks; a bit has 2 * divider clocks
+  std::uint8_t smallest = 0;  // the smallest width since eye() was called for this channel
+  std::uint8_t point = 0;     // sampling point: clocks behind the rise of the start bit
+  std::uint8_t before = 0;    // clocks that edges could have come later
+  std::uint8_t after = 0;     // clocks that those of the next bit could have come earlier
+};
+
 enum class AccessState : std::uint8_t {
   kRunning,  // its bits go with the frames of the channel
   kDone,
@@ -120,12 +134,7 @@ class Page {
   // ---- interrupt ----
   Result<void> enable_interrupt(std::uint32_t events) { return set(regs::kAddrIrqEnable, events); }
   // The events that have come, and clears these.
-  Result<std::uint32_t> take_events() {
-    std::uint32_t events = 0;
-    if (!port_.read(regs::kAddrIrqStatus, events) || !port_.write(regs::kAddrIrqStatus, events))
-      return Error::kBus;
-    return events;
-  }
+  Result<std::uint32_t> take_events() { return take(regs::kAddrIrqStatus); }
 
   // ---- single points without waiting ----
   // Asks for one frame of all enabled channels in single-point mode, and returns at once; false: a
@@ -173,12 +182,33 @@ class Page {
                regs::DELAY_WATCH::insert(clocks, 1));
   }
   // Bit c: the delay of channel c has moved. Clears what it returns.
-  Result<std::uint32_t> take_alarms() {
-    std::uint32_t alarms = 0;
-    if (!port_.read(regs::kAddrDelayAlarm, alarms) || !port_.write(regs::kAddrDelayAlarm, alarms))
+  Result<std::uint32_t> take_alarms() { return take(regs::kAddrDelayAlarm); }
+
+  // ---- extra FRAME_SAMPLER ----
+  // Begins the smallest width of the channel anew, with that of the last frame.
+  Result<Eye> eye(unsigned channel) {
+    if (channel >= regs::kChannels) return Error::kChannel;
+    std::uint32_t word = 0;
+    if (!port_.write(regs::kAddrChannelIndex, channel) || !port_.read(regs::kAddrEye, word))
       return Error::kBus;
-    return alarms;
+    Eye eye;
+    eye.valid = regs::EYE_VALID::get(word) != 0;
+    eye.used = regs::EYE_USED::get(word) != 0;
+    eye.width = static_cast<std::uint8_t>(regs::EYE_WIDTH::get(word));
+    eye.smallest = static_cast<std::uint8_t>(regs::EYE_SMALLEST::get(word));
+    eye.point = static_cast<std::uint8_t>(regs::EYE_POINT::get(word));
+    eye.before = static_cast<std::uint8_t>(regs::EYE_BEFORE::get(word));
+    eye.after = static_cast<std::uint8_t>(regs::EYE_AFTER::get(word));
+    return eye;
   }
+  // A frame of any channel with a width below `clocks` sets its alarm and kEventError; 0: none.
+  // kConfig above 31.
+  Result<void> watch_eyes(std::uint32_t clocks) {
+    if (clocks > regs::EYE_LIMIT::kMax) return Error::kConfig;
+    return set(regs::kAddrEyeLimit, clocks);
+  }
+  // Bit c: an eye of channel c was narrower. Clears what it returns.
+  Result<std::uint32_t> take_eye_alarms() { return take(regs::kAddrEyeAlarm); }
 
   // ---- extra WIDE ----
   // The channel's word of the last single-point request; see Device::position().
@@ -225,6 +255,12 @@ class Page {
     std::uint32_t value = 0;
     if (!port_.read(offset, value)) return Error::kBus;
     return value;
+  }
+  // Bits that are cleared by writing 1.
+  Result<std::uint32_t> take(std::uint32_t offset) {
+    std::uint32_t bits = 0;
+    if (!port_.read(offset, bits) || !port_.write(offset, bits)) return Error::kBus;
+    return bits;
   }
   Result<void> set(std::uint32_t offset, std::uint32_t value) {
     if (!port_.write(offset, value)) return Error::kBus;

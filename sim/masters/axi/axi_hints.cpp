@@ -51,7 +51,7 @@ void AxiSetup::written(std::uint32_t address, std::uint32_t data, std::uint8_t s
 std::vector<Hint> AxiSetup::hints(const ChipConfig& chip, std::span<const HintLine> lines,
                                   std::uint64_t missed) const {
   if (!asked_ || !single_point()) return {};
-  const bool full = chip.features == kAxiFull;
+  const bool full = chip.features != kAxiDocument;
   const unsigned most = full ? 64 : 32;
   unsigned position = taken_[regs::kAddrPositionBits / 4] & regs::POSITION_BITS::kMask;
   if (position == 0 || position > most) position = most;

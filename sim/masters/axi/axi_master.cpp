@@ -35,8 +35,8 @@ constexpr std::pair<const char*, unsigned> kSwitches[] = {
     {"POR_PIN", kAxiPorPin}};
 constexpr unsigned kDefaultSwitches = kAxiValidUntilRequest;
 
-// In the order of kAxiDocument, kAxiFull.
-constexpr std::string_view kFeatures[] = {"document", "full"};
+// In the order of kAxiDocument, kAxiFull, kAxiFrames.
+constexpr std::string_view kFeatures[] = {"document", "full", "frames"};
 
 void read_chip(TomlReader& reader, ChipConfig& chip) {
   chip.features = static_cast<std::uint32_t>(reader.choice("features", kFeatures).value_or(0));

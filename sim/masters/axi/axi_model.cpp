@@ -14,7 +14,7 @@ std::unique_ptr<AxiModel> make_axi_model(const ChipConfig& chip, unsigned channe
   }
   // A single channel has nothing to be aligned to.
   const bool aligned = channels > 1 && (chip.quirks & kAxiAlignLatch) != 0;
-  if (plain || aligned || chip.features == kAxiFull || channels > 4) {
+  if (plain || aligned || chip.features != kAxiDocument || channels > 4) {
     return make_axi_whole(chip, channels, seed, plain);
   }
   return make_axi_in_parts(chip, channels, seed);

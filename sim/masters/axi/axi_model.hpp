@@ -20,9 +20,11 @@ namespace mb4::sim {
 
 inline constexpr unsigned kAxiChannels = 16;
 
-// ChipConfig::features: what the document has, or all extras (EXTRAS of biss_axi).
+// ChipConfig::features: what the document has, all extras but FRAME_SAMPLER, all extras (EXTRAS of
+// biss_axi).
 inline constexpr unsigned kAxiDocument = 0;
 inline constexpr unsigned kAxiFull = 1;
+inline constexpr unsigned kAxiFrames = 2;
 // ChipConfig::quirks: bits of axi_pkg::switch_t, and above them POR_PIN; parameters of biss_axi.
 inline constexpr unsigned kAxiValidUntilRequest = 1;
 inline constexpr unsigned kAxiAlignLatch = 2;
@@ -70,7 +72,7 @@ class AxiModel : public MasterModel, public WordManager {
   virtual void stop_wave() = 0;
 
   // Beats of the stream in mode 0 that the sink has taken: a word for each channel of the model
-  // (with all extras two, the lower first), and in `user` bit c: the word of channel c is of this
+  // (with extras two, the lower first), and in `user` bit c: the word of channel c is of this
   // frame and good. The oldest ones are dropped when there are too many.
   std::deque<StreamBeat>& beats() { return beats_; }
   std::uint64_t beats_dropped() const { return beats_dropped_; }
@@ -83,12 +85,13 @@ class AxiModel : public MasterModel, public WordManager {
 };
 
 // `channels`: as many as the scenario needs. Of the models that are built (1, 4, 16 channels, each
-// as the document, as the document with ALIGN_LATCH, and with all extras) the smallest one that is
+// as the document, as the document with ALIGN_LATCH, with all extras but FRAME_SAMPLER, and with
+// all) the smallest one that is
 // enough is made. `plain`: each edge is evaluated in the simplest way.
 std::unique_ptr<AxiModel> make_axi_model(const ChipConfig& chip, unsigned channels,
                                          std::uint64_t seed, bool plain);
 
-// The same behind SPI: 1 or 4 channels as the document, 4 with all extras.
+// The same behind SPI: 1 or 4 channels as the document, 4 with extras.
 inline constexpr unsigned kAxiSpiChannels = 4;
 std::unique_ptr<AxiModel> make_axi_spi_model(const ChipConfig& chip, unsigned channels,
                                              std::uint64_t seed, bool plain);

@@ -10,6 +10,9 @@
 #include <Vaxi_4.h>
 #include <Vaxi_align_16.h>
 #include <Vaxi_align_4.h>
+#include <Vaxi_frames_1.h>
+#include <Vaxi_frames_16.h>
+#include <Vaxi_frames_4.h>
 #include <Vaxi_full_1.h>
 #include <Vaxi_full_16.h>
 #include <Vaxi_full_4.h>
@@ -18,6 +21,9 @@
 #include <Vaxi_4_wave.hpp>
 #include <Vaxi_align_16_wave.hpp>
 #include <Vaxi_align_4_wave.hpp>
+#include <Vaxi_frames_16_wave.hpp>
+#include <Vaxi_frames_1_wave.hpp>
+#include <Vaxi_frames_4_wave.hpp>
 #include <Vaxi_full_16_wave.hpp>
 #include <Vaxi_full_1_wave.hpp>
 #include <Vaxi_full_4_wave.hpp>
@@ -43,6 +49,11 @@ std::unique_ptr<AxiModel> make_axi_whole(const ChipConfig& chip, [[maybe_unused]
     if (channels <= 1) return make<Vaxi_full_1, 1>(chip, seed, plain);
     if (channels <= 4) return make<Vaxi_full_4, 4>(chip, seed, plain);
     return make<Vaxi_full_16, kAxiChannels>(chip, seed, plain);
+  }
+  if (chip.features == kAxiFrames) {
+    if (channels <= 1) return make<Vaxi_frames_1, 1>(chip, seed, plain);
+    if (channels <= 4) return make<Vaxi_frames_4, 4>(chip, seed, plain);
+    return make<Vaxi_frames_16, kAxiChannels>(chip, seed, plain);
   }
   if (channels <= 1) return make<Vaxi_1, 1>(chip, seed, plain);
   if ((chip.quirks & kAxiAlignLatch) != 0) {

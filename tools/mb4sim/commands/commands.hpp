@@ -45,8 +45,9 @@ int regs_command(const RegsOptions& options);
 
 struct SweepOptions {
   std::string scenario;
-  std::string delays = "0:400:20";  // ns, number_list()
+  std::string delays = "0:399:19";  // ns, number_list()
   std::string jitters = "0:50:5";   // % of T_MA, peak to peak
+  std::string skews;                // % of T_MA, empty: as the scenario says
   std::string freqs;                // codes, "all", or empty: as the scenario says
   std::uint64_t frames = 20;        // at each point
   std::string csv;                  // empty: none

@@ -87,9 +87,12 @@ void add_sweep(CLI::App& app, Action& action) {
     sweep.add_option(name, list, description)->type_name("LIST");
   };
   add_list("--delays", options->delays,
-           "Round-trip delays in ns, on all channels (default 0:400:20)");
+           "Round-trip delays in ns, on all channels (default 0:399:19)");
   add_list("--jitters", options->jitters,
            "Jitter of SL in % of T_MA, on dsl of a bit, peak to peak (default 0:50:5)");
+  add_list("--skews", options->skews,
+           "Duty distortion of SL in % of T_MA: falling edges later, negative: rising edges later "
+           "(default: as the scenario says)");
   add_list("--freqs", options->freqs,
            "Codes of the frequency of MA: FREQS, on biss_axi MA_DIVIDER; on dsl rules SAMPLE; "
            "or all (default: as the scenario says)");

@@ -33,6 +33,7 @@ namespace {
 
 constexpr double kMaxDelayNs = 1e6;
 constexpr double kMaxJitterPercent = 1000;
+constexpr double kMaxSkewPercent = 100;
 constexpr std::uint64_t kMaxPoints = 1'000'000;
 std::vector<unsigned> all_codes(const SweepCodes& all, std::uint64_t clk_hz) {
   std::vector<unsigned> codes;
@@ -64,6 +65,18 @@ std::vector<unsigned> codes_of(const std::string& text, const sim::Scenario& sce
     codes.push_back(code);
   }
   return codes;
+}
+
+// Without --skews that of the scenario.
+std::vector<std::optional<long long>> skews_of(const std::string& text,
+                                               const sim::Scenario& scenario) {
+  if (text.empty()) return {std::nullopt};
+  if (support_of(scenario).sweep.set_jitter != nullptr) {
+    throw UseError("--skews: the line of this master has no SL");
+  }
+  const std::vector<long long> list =
+      number_list(text, {"--skews", -kMaxSkewPercent, kMaxSkewPercent});
+  return {list.begin(), list.end()};
 }
 
 void set_code(sim::Scenario& scenario, unsigned code) {
@@ -107,11 +120,13 @@ SweepPoint measure(const sim::Scenario& scenario, std::uint64_t frames, std::uin
 }
 
 // A plane without its points.
-SweepPlane empty_plane(const sim::Scenario& scenario, unsigned code) {
+SweepPlane empty_plane(const sim::Scenario& scenario, unsigned code,
+                       std::optional<long long> skew) {
   const std::uint64_t clk_hz = scenario.chip.system_hz();
   const SweepCodes& all = support_of(scenario).sweep;
   SweepPlane plane;
   plane.code = code;
+  plane.skew_mpercent = skew;
   plane.ma_hz = clk_hz / all.divider(clk_hz, code);
   if (all.allowed != nullptr) plane.allowed_mpercent = all.allowed(code);
   if (all.title != nullptr) plane.title = all.title(code);
@@ -127,7 +142,8 @@ struct Place {
 SweepPoint measure_at(sim::Scenario scenario, const Sweep& sweep, const Place& place) {
   const std::uint64_t clk_hz = scenario.chip.system_hz();
   const SweepCodes& all = support_of(scenario).sweep;
-  const unsigned code = sweep.planes[place.plane].code;
+  const SweepPlane& plane = sweep.planes[place.plane];
+  const unsigned code = plane.code;
   const double period_ps = 1e12 * all.divider(clk_hz, code) / static_cast<double>(clk_hz);
   set_code(scenario, code);
   const auto jitter = static_cast<double>(sweep.jitters_mpercent[place.jitter]);
@@ -138,10 +154,15 @@ SweepPoint measure_at(sim::Scenario scenario, const Sweep& sweep, const Place& p
       all.set_jitter(*channel.cable, time);
     } else {
       channel.cable.as<sim::ClockedConfig>().sl.jitter = time;
+      if (plane.skew_mpercent) {
+        channel.cable.as<sim::ClockedConfig>().sl.skew = static_cast<std::int64_t>(
+            period_ps * static_cast<double>(*plane.skew_mpercent) / 100'000);
+      }
     }
   }
+  const std::uint64_t skew = static_cast<std::uint64_t>(plane.skew_mpercent.value_or(0)) << 40U;
   const std::uint64_t part =
-      (std::uint64_t{code} << 32U) + place.delay * sweep.jitters_mpercent.size() + place.jitter + 1;
+      skew + (std::uint64_t{code} << 32U) + place.delay * sweep.jitters_mpercent.size() + place.jitter + 1;
   return measure(scenario, sweep.frames, sim::derive_seed(sweep.seed, part));
 }
 
@@ -209,8 +230,9 @@ int sweep_command(const SweepOptions& options) {
   sweep.delays_ps = number_list(options.delays, {"--delays", 0, kMaxDelayNs});
   sweep.jitters_mpercent = number_list(options.jitters, {"--jitters", 0, kMaxJitterPercent});
   const std::vector<unsigned> codes = codes_of(options.freqs, scenario);
+  const std::vector<std::optional<long long>> skews = skews_of(options.skews, scenario);
   const std::uint64_t points =
-      codes.size() * sweep.delays_ps.size() * sweep.jitters_mpercent.size();
+      codes.size() * skews.size() * sweep.delays_ps.size() * sweep.jitters_mpercent.size();
   if (points > kMaxPoints) {
     throw UseError(fmt::format("{} points are more than {}", points, kMaxPoints));
   }
@@ -231,7 +253,9 @@ int sweep_command(const SweepOptions& options) {
   if (!options.csv.empty()) csv = std::make_unique<OutputFile>(options.csv);
   if (!options.svg.empty()) svg = std::make_unique<PictureFile>(options.svg);
 
-  for (const unsigned code : codes) sweep.planes.push_back(empty_plane(scenario, code));
+  for (const unsigned code : codes) {
+    for (const auto& skew : skews) sweep.planes.push_back(empty_plane(scenario, code, skew));
+  }
   measure_all(scenario, options.jobs, sweep);
   fmt::print("{}", options.json ? sweep_json(sweep) : sweep_text(sweep));
   if (csv != nullptr) csv->commit(sweep_csv(sweep));

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <cstdlib>
 
 #include "report/colour.hpp"
 #include "sim/core/json_text.hpp"
@@ -19,6 +20,12 @@ constexpr int kFirstColumn = 11;
 std::string cell(const SweepPoint& point) {
   if (point.bad() == 0) return ".";
   return fmt::format("{}{}", point.bad(), point.wrong != 0 ? "!" : "");
+}
+
+std::string skew_text(long long skew) {
+  if (skew == 0) return "no skew";
+  return fmt::format("{} edges {} % later", skew > 0 ? "falling" : "rising",
+                     thousandths(std::abs(skew)));
 }
 
 std::string plane_text(const Sweep& sweep, const SweepPlane& plane) {
@@ -48,7 +55,8 @@ std::string plane_text(const Sweep& sweep, const SweepPlane& plane) {
 }  // namespace
 
 std::string thousandths(long long value) {
-  std::string text = fmt::format("{}.{:03}", value / 1000, value % 1000);
+  std::string text = fmt::format("{}{}.{:03}", value < 0 ? "-" : "", std::abs(value) / 1000,
+                                 std::abs(value) % 1000);
   text.erase(text.find_last_not_of('0') + 1);
   if (text.back() == '.') text.pop_back();
   return text;
@@ -56,9 +64,10 @@ std::string thousandths(long long value) {
 
 std::string plane_title(const Sweep& sweep, const SweepPlane& plane) {
   if (!plane.title.empty()) return plane.title;
-  return fmt::format("{} 0x{:02X}: MA {} kHz, T_MA {} ns", sweep.code_name, plane.code,
+  return fmt::format("{} 0x{:02X}: MA {} kHz, T_MA {} ns{}", sweep.code_name, plane.code,
                      thousandths(static_cast<long long>(plane.ma_hz)),
-                     thousandths(std::llround(1e12 / static_cast<double>(plane.ma_hz))));
+                     thousandths(std::llround(1e12 / static_cast<double>(plane.ma_hz))),
+                     plane.skew_mpercent ? ", " + skew_text(*plane.skew_mpercent) : "");
 }
 
 std::string frames_text(const Sweep& sweep) {
@@ -125,8 +134,11 @@ std::string sweep_json(const Sweep& sweep) {
       sim::json_text(sweep.period), sweep.within_allowed());
   for (const SweepPlane& plane : sweep.planes) {
     out +=
-        fmt::format("{}\n  {{\"code\": {}, \"ma_hz\": {}, \"allowed_percent\": {}, \"points\": [",
+        fmt::format("{}\n  {{\"code\": {}, \"ma_hz\": {}{}, \"allowed_percent\": {}, \"points\": [",
                     &plane == &sweep.planes.front() ? "" : ",", plane.code, plane.ma_hz,
+                    plane.skew_mpercent
+                        ? fmt::format(", \"skew_percent\": {}", thousandths(*plane.skew_mpercent))
+                        : "",
                     thousandths(plane.allowed_mpercent));
     for (std::size_t d = 0; d < sweep.delays_ps.size(); ++d) {
       for (std::size_t j = 0; j < sweep.jitters_mpercent.size(); ++j) {
@@ -144,14 +156,17 @@ std::string sweep_json(const Sweep& sweep) {
 }
 
 std::string sweep_csv(const Sweep& sweep) {
-  std::string out = sweep.code_name + ",ma_hz,delay_ns,jitter_percent,words,flagged,wrong\n";
+  const bool skews = sweep.planes.front().skew_mpercent.has_value();
+  std::string out = sweep.code_name + (skews ? ",ma_hz,skew_percent" : ",ma_hz") +
+                    ",delay_ns,jitter_percent,words,flagged,wrong\n";
   std::transform(out.begin(), out.end(), out.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   for (const SweepPlane& plane : sweep.planes) {
     for (std::size_t d = 0; d < sweep.delays_ps.size(); ++d) {
       for (std::size_t j = 0; j < sweep.jitters_mpercent.size(); ++j) {
         const SweepPoint& point = plane.points[d][j];
-        out += fmt::format("{},{},{},{},{},{},{}\n", plane.code, plane.ma_hz,
+        out += fmt::format("{},{},{}{},{},{},{},{}\n", plane.code, plane.ma_hz,
+                           skews ? thousandths(*plane.skew_mpercent) + "," : "",
                            thousandths(sweep.delays_ps[d]), thousandths(sweep.jitters_mpercent[j]),
                            point.words, point.flagged, point.wrong);
       }

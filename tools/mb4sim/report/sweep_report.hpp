@@ -1,13 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The results of a sweep over delay, jitter and codes of the MA frequency (FREQS): as text, CSV and
-// picture.
+// The results of a sweep over delay, jitter, duty distortion and codes of the MA frequency (FREQS):
+// as text, CSV and picture.
 #ifndef MB4SIM_TOOL_SWEEP_REPORT_HPP_
 #define MB4SIM_TOOL_SWEEP_REPORT_HPP_
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,12 +26,13 @@ struct SweepPoint {
 // Item I305 in the unit of Sweep::jitters_mpercent.
 inline constexpr long long kI305 = 25'000;
 
-// One code of the MA frequency, or of another rule; points[delay][jitter].
+// One code of the MA frequency, or of another rule, with one skew; points[delay][jitter].
 struct SweepPlane {
   unsigned code = 0;
   std::uint64_t ma_hz = 0;             // bits a second, for codes that are no frequencies
   long long allowed_mpercent = kI305;  // jitter up to which every word must be good
   std::string title;                   // empty: of the frequency
+  std::optional<long long> skew_mpercent{};  // of SL; empty: that of the scenario
   std::vector<std::vector<SweepPoint>> points;
 };
 

@@ -3,7 +3,7 @@
 """Pictures of frames with matplotlib, which `pip install openmb4[plot]` brings. Every function draws
 on the axes that it is given, or on new ones, and returns them."""
 
-from typing import Any, Optional, Sequence
+from typing import Any, Optional, Sequence, Tuple
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -38,10 +38,27 @@ def timing(record: Edges, axes: Optional[Axes] = None) -> Axes:
     return axes
 
 
-def eye(record: Edges, ma: str = "MA1", sl: str = "SL1", axes: Optional[Axes] = None) -> Axes:
+def _start_bit(rising: npt.NDArray[Any], period: int, sl: Any) -> int:
+    """When SL rose with the start bit of the last frame in a record."""
+    times, levels = sl
+    pauses = np.flatnonzero(np.diff(rising) > 4 * period)
+    begin = rising[pauses[-1] + 1] if len(pauses) else rising[0]
+    acknowledge = times[(times > begin) & (levels == 0)][:1]
+    start = times[(times > acknowledge) & (levels == 1)][:1] if len(acknowledge) else acknowledge
+    if not len(start):
+        raise Error("eye: the last frame of the record has no start bit to lay the measured eye at")
+    return int(start[0])
+
+
+def eye(record: Edges, ma: str = "MA1", sl: str = "SL1", axes: Optional[Axes] = None, *,
+        measured: Optional[Tuple[int, int, float]] = None) -> Axes:
     """The eye of a line: SL in the two periods of MA around each rising edge of MA, all laid over
     each other. Where no line crosses, SL may be sampled. The period is the commonest distance of two
-    rising edges; the record should hold some hundred of them."""
+    rising edges; the record should hold some hundred of them.
+
+    `measured` is what biss_axi says of the last frame of the record (extra FRAME_SAMPLER):
+    EYE_WIDTH and EYE_POINT in clocks, and the length of a clock in ns. It is drawn beside the lines,
+    with its sampling point."""
     times, levels = record.pins[ma]
     rising = times[1:][levels[1:] == 1]
     if len(rising) < 3:
@@ -58,6 +75,17 @@ def eye(record: Edges, ma: str = "MA1", sl: str = "SL1", axes: Optional[Axes] = 
         axes.step(inside[-len(values):] / 1000, values, where="post", color=GOOD, alpha=0.15,
                   linewidth=1.2)
     axes.axvline(0, color=BAD, linewidth=1.0, label=f"{ma} rises")
+    if measured is not None:
+        width, point, clock = measured
+        start = _start_bit(rising, period, record.pins[sl])
+        behind = (start - rising[rising <= start][-1]) % period
+        for turn in (-2, -1, 0):
+            at = (behind + turn * period) / 1000 + point * clock
+            first = not turn + 2
+            axes.axvspan(at - (width - 1) // 2 * clock, at + width // 2 * clock, 0.45, 0.55,
+                         color=LINE, alpha=0.4, label="measured eye" if first else None)
+            axes.plot(at, 0.5, "x", color=BAD, label="sampling point" if first else None)
+        axes.set_xlim(-period / 1000, period / 1000)
     axes.set_yticks((0, 1))
     axes.set_ylabel(sl)
     axes.set_xlabel(f"time from a rising edge of {ma} / ns")

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
+#include <vector>
 
 #include "axi_regs_table.hpp"
 #include "biss_axi/device.hpp"
@@ -31,12 +33,26 @@ constexpr bool of_channel(unsigned address) {
       regs::kAddrReceivedCrc,   regs::kAddrCalculatedCrc, regs::kAddrSinglePointData,
       regs::kAddrLineDelay,     regs::kAddrPositionHigh,  regs::kAddrFrameCount,
       regs::kAddrCrcErrorCount, regs::kAddrLateCount,     regs::kAddrDelayReference,
-      regs::kAddrLastStatus,    regs::kAddrLastPosition,  regs::kAddrLastPositionHigh};
+      regs::kAddrLastStatus,    regs::kAddrLastPosition,  regs::kAddrLastPositionHigh,
+      regs::kAddrEye};
   return std::find(std::begin(kAll), std::end(kAll), address) != std::end(kAll);
 }
 
-// [chip] features = "full".
+// [chip] features = "full" or "frames".
 bool has_extras(const sim::Scenario& scenario) { return scenario.chip.features != 0; }
+bool has_eyes(const sim::Scenario& scenario) {
+  return scenario.chip.features == sim::kAxiFrames;
+}
+
+// With eyes: their width in percent of a bit, behind the other columns.
+std::span<const WordColumn> eye_columns() {
+  static const std::vector<WordColumn> kColumns = [] {
+    std::vector<WordColumn> columns(all_word_columns().begin(), all_word_columns().end());
+    columns.push_back({"eye_percent", "eye/%", 7, true, nullptr});
+    return columns;
+  }();
+  return kColumns;
+}
 
 std::string describe(const biss_axi::ErrorInfo& error) {
   switch (error.code) {
@@ -136,9 +152,13 @@ class AxiSession final : public Session {
   }
   SessionFrame read(std::uint64_t number) override;
   RegisterMap registers() override;
+  std::span<const WordColumn> columns() const override {
+    return has_eyes(simulator_.scenario()) ? eye_columns() : Session::columns();
+  }
 
  private:
   SlaveResult result_of(unsigned channel, bool good);
+  std::string eye_of(unsigned channel);
   std::optional<bool> flag(const char* pin) const;
 
   biss_axi::Config config_;
@@ -155,6 +175,13 @@ std::optional<bool> AxiSession::flag(const char* pin) const {
   const bool level = simulator_.pin(*simulator_.pin_by_name(pin));
   if (!level && slaves_.size() > 1) return std::nullopt;
   return level;
+}
+
+std::string AxiSession::eye_of(unsigned channel) {
+  const auto eye = page_.eye(channel);
+  if (!eye || !eye->valid) return "";
+  const auto clocks = static_cast<unsigned>(config_.f_clk_hz / config_.ma_hz);
+  return fmt::format("{}", (100U * eye->width + clocks / 2) / clocks);
 }
 
 SlaveResult AxiSession::result_of(unsigned channel, bool good) {
@@ -198,6 +225,7 @@ SessionFrame AxiSession::read(std::uint64_t number) {
     const unsigned channel = slave.channel - 1;
     out.results.push_back(good ? result_of(channel, (*good >> channel & 1U) != 0)
                                : SlaveResult{std::nullopt, out.error});
+    if (has_eyes(simulator_.scenario())) out.results.back().told = {eye_of(channel)};
     out.sent.push_back(simulator_.slave(slave.number)->sent_word());
     if (out.sent.back()) *out.sent.back() >>= kFlagBits;
   }
@@ -217,10 +245,17 @@ RegisterMap AxiSession::registers() {
     return value;
   };
   const std::uint32_t index = read(regs::kAddrChannelIndex);
-  const unsigned last =
-      has_extras(simulator_.scenario()) ? regs::kAddrLastPositionHigh : regs::kAddrLineDelay;
+  const unsigned last = has_eyes(simulator_.scenario())     ? regs::kAddrEyeAlarm
+                        : has_extras(simulator_.scenario()) ? regs::kAddrLastPositionHigh
+                                                            : regs::kAddrLineDelay;
+  // Reading EYE begins its smallest width anew, so it is read once.
+  std::map<unsigned, std::uint32_t> eyes;
+  const auto eye = [&](unsigned channel) {
+    if (eyes.count(channel) == 0) eyes[channel] = read(regs::kAddrEye);
+    return eyes[channel];
+  };
   for (unsigned address = 0; address <= last; address += sizeof(std::uint32_t)) {
-    map.words.push_back(read(address));
+    map.words.push_back(address == regs::kAddrEye ? eye(index) : read(address));
   }
   for (const regs::FieldInfo& field : regs::kFields) {
     if (field.address > last) continue;
@@ -233,7 +268,8 @@ RegisterMap AxiSession::registers() {
     for (const ConnectedSlave& slave : slaves_) {
       port_.write(regs::kAddrChannelIndex, slave.channel - 1);
       shown.name = fmt::format("{}[{}]", field.name, slave.channel - 1);
-      shown.word = read(field.address);
+      shown.word =
+          field.address == regs::kAddrEye ? eye(slave.channel - 1) : read(field.address);
       map.fields.push_back(shown);
     }
   }
