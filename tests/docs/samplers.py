@@ -36,6 +36,8 @@ def master(kind, clock, more=""):
 SAMPLERS = [
     Sampler("`biss_sl_sampler`: iC-MB4, four points", 10, master("ic-mb4", 20), 0),
     Sampler("`biss_delay_sampler`: `biss_axi` at 100 MHz", 10, master("axi", 100), 5),
+    Sampler("`biss_frame_sampler`: `biss_axi` at 100 MHz with FRAME_SAMPLER", 10, master("axi", 100, 'features = "frames"\n'), 5),
+    Sampler("`biss_frame_sampler`: the same at 200 MHz", 10, master("axi", 200, 'features = "frames"\n'), 10),
     Sampler("`clb_state`: `biss_clb` at 200 MHz", 10, master("clb", 200), 9),
     Sampler("`biss_os_sampler`: `biss_pru`, without the average", 10, master("pru", 200), 10),
     Sampler("the same with `FIRST_LOW`", 10, master("pru", 200, "[chip.quirks]\nFIRST_LOW = true\n"), 10),
@@ -114,9 +116,10 @@ def draw(found, path):
     matplotlib.rcParams.update({"svg.hashsalt": "samplers", "svg.fonttype": "none", "font.size": 10})
     from matplotlib import pyplot
     figure, axes = pyplot.subplots(figsize=(9, 4.6), layout="constrained")
-    styles = ["-", "-", "-", "-", "--", "-", "--"]
-    colours = ["#1f4e8c", "#2a8f5a", "#b5651d", "#a02c5d", "#a02c5d", "#6a51a3", "#6a51a3"]
-    names = ["iC-MB4, 10 MHz", "biss_axi, 10 MHz", "biss_clb, 10 MHz", "biss_pru, 10 MHz", "the same, FIRST_LOW",
+    styles = ["-", "-", "-", "--", "-", "-", "--", "-", "--"]
+    colours = ["#1f4e8c", "#2a8f5a", "#333333", "#333333", "#b5651d", "#a02c5d", "#a02c5d", "#6a51a3", "#6a51a3"]
+    names = ["iC-MB4, 10 MHz", "biss_axi, 10 MHz", "biss_axi by frames, 10 MHz", "the same, 200 MHz",
+             "biss_clb, 10 MHz", "biss_pru, 10 MHz", "the same, FIRST_LOW",
              "biss_pru, average, 5 MHz", "the same, FIRST_LOW"]
     for (_, _, _, curve), style, colour, name in zip(found, styles, colours, names):
         jitters = sorted(curve)

@@ -70,6 +70,41 @@ def test_eye_is_open_where_the_line_is_at_rest(chip):
     axes.figure.canvas.draw()
 
 
+AXI = ('[master]\ntype = "axi"\n[chip]\nf_clk_hz = 100_000_000\nfeatures = "frames"\n[[channel]]\nnumber = 1\n'
+       'delay_ns = 133\njitter_ns = 40\n[[channel.slave]]\nprotocol = "biss-c"\npreset = "resolute-26"\ndata = 0x2AAAAAA\n')
+
+
+def test_measured_eye_lies_where_the_line_is_at_rest():
+    with openmb4.Simulator(AXI) as chip:
+        regs = chip.axi_regs
+        for name, value in (("SINGLE_POINT", 1), ("MA_DIVIDER", 5), ("POSITION_BITS", 26), ("CRC_CHECK", 1),
+                            ("CHANNEL_ENABLE", 1)):
+            regs[name].register.write(value)
+        chip.advance_ns(41_000)
+        regs.REQUEST.modify(0)
+        regs.REQUEST.modify(1)
+        record = chip.record(("ma0", "slo0"), 20_000)
+        word = regs.EYE_WIDTH.register.read()
+        assert word >> 31 == 1
+        width, point = word & 0x1F, word >> 8 & 0x1F
+        axes = plot.eye(record, "ma0", "slo0", measured=(width, point, 10.0))
+        # No edge of SL where the eye is drawn: from the clock behind the latest edge to the last one before the next.
+        changes = {x for line in axes.get_lines() if len(line.get_xdata()) > 3
+                   for x, before, after in zip(line.get_xdata()[1:], line.get_ydata(), line.get_ydata()[1:])
+                   if before != after and 0 < x < 100}
+        spans = [patch.get_extents().transformed(axes.transData.inverted()) for patch in axes.patches]
+        assert len(spans) == 3 and 4 <= width <= 7
+        for span in spans:
+            assert not any(span.x0 < x < span.x1 for x in changes), (span, sorted(changes))
+        assert any(span.x1 > 0 and span.x0 < 100 for span in spans)
+        axes.figure.canvas.draw()
+        regs.REQUEST.modify(0)
+        regs.REQUEST.modify(1)
+        with pytest.raises(openmb4.Error, match="no frame has ended in the record"):
+            plot.eye(chip.record(("ma0", "slo0"), 2_000), "ma0", "slo0", measured=(width, point, 10.0))
+    matplotlib.pyplot.close("all")
+
+
 def test_eye_of_a_line_at_rest_is_refused(chip):
     with pytest.raises(openmb4.Error, match="0 rising edges of MA1"):
         plot.eye(chip.record(("MA1", "SL1"), 1000))

@@ -47,7 +47,8 @@ std::unique_ptr<AxiModel> make_axi_spi_model([[maybe_unused]] const ChipConfig& 
   if (chip.features == kAxiFull) return make<Vaxi_spi_full_4, 4>(chip, seed, plain);
   if (chip.features == kAxiFrames) return make<Vaxi_spi_frames_4, 4>(chip, seed, plain);
   if (channels > 1 && (chip.quirks & kAxiAlignLatch) != 0) {
-    throw ScenarioError("biss_spi with ALIGN_LATCH is simulated with features = \"full\" or \"frames\" only");
+    throw ScenarioError(
+        "biss_spi with ALIGN_LATCH is simulated with features = \"full\" or \"frames\" only");
   }
   if (channels <= 1) return make<Vaxi_spi_1, 1>(chip, seed, plain);
   return make<Vaxi_spi_4, 4>(chip, seed, plain);

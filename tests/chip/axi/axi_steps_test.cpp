@@ -151,11 +151,11 @@ TEST(AxiSteps, LessWork_ChangesNothing) {
 // is at rest between them (sim/model/model_rest.hpp); its own edges come in the pauses too.
 TEST(AxiSteps, LeftOutClocksAtRest_ChangeNothing) {
   for (const unsigned channels : {1U, 4U}) {
-    for (const bool full : {false, true}) {
-      SCOPED_TRACE(std::to_string(channels) + (full ? ", all extras" : ""));
+    for (const std::string kind : {"document", "full", "frames"}) {
+      SCOPED_TRACE(std::to_string(channels) + ", " + kind);
       sim::Random random(channels);
       const std::string text = session_scenario(channels, random);
-      const std::string features = full ? "\nfeatures = \"full\"" : "";
+      const std::string features = "\nfeatures = \"" + kind + "\"";
       const std::string clock = "f_clk_hz = 100000000";
       std::string with = text;
       with.replace(with.find(clock), clock.size(), clock + features);

@@ -125,6 +125,56 @@ class Axi(MasterTest):
             self.assertEqual(result.returncode, 2, code)
             self.assertRegex(result.stderr, f"--freqs: .*MA_DIVIDER.* {code}$")
 
+    def test_sweep_over_duty_distortion(self):
+        scenario = self.path(channel(1))
+        result = run("sweep", scenario, "--delays", "0,403", "--jitters", "0", "--skews=-65,0,20", "--frames", "4",
+                     "--csv", str(self.folder / "s.csv"))
+        self.assertEqual(result.returncode, 1)  # 65 % of a bit are too much
+        self.assertIn("T_MA 100 ns, rising edges 65 % later; bad words", result.stdout)
+        self.assertIn("T_MA 100 ns, no skew; bad words", result.stdout)
+        self.assertIn("T_MA 100 ns, falling edges 20 % later; bad words", result.stdout)
+        rows = [row.split(",") for row in (self.folder / "s.csv").read_text(encoding="utf-8").splitlines()]
+        self.assertEqual(rows[0][:3], ["ma_divider", "ma_hz", "skew_percent"])
+        self.assertEqual([row[2] for row in rows[1:]], ["-65", "-65", "0", "0", "20", "20"])
+        self.assertTrue(all(int(row[6]) + int(row[7]) == 4 for row in rows[1:3]), rows)
+        self.assertTrue(all(int(row[6]) + int(row[7]) == 0 for row in rows[3:]), rows)
+        planes = json.loads(run("sweep", scenario, "--delays", "0", "--jitters", "0", "--skews", "20", "--json").stdout)
+        self.assertEqual(planes["planes"][0]["skew_percent"], 20)
+        # The scenario's own skew, and a picture of each plane.
+        plain = json.loads(run("sweep", scenario, "--delays", "0", "--jitters", "0", "--json").stdout)
+        self.assertNotIn("skew_percent", plain["planes"][0])
+        picture = self.folder / "s.svg"
+        run("sweep", scenario, "--delays", "0,100", "--jitters", "0,10", "--skews", "0,20", "--frames", "1", "--svg",
+            str(picture))
+        self.assertIn("falling edges 20 % later", picture.read_text(encoding="utf-8"))
+
+    def test_run_and_regs_show_the_eye(self):
+        text = "[master]\ntype = \"axi\"\n[chip]\nf_clk_hz = 100_000_000\nfeatures = \"frames\"\n"
+        line = "[[channel]]\nnumber = {}\njitter_ns = {}\n[[channel.slave]]\npreset = \"resolute-26\"\nprotocol = \"biss-c\"\n"
+        scenario = self.folder / "eye.toml"
+        scenario.write_text(text + line.format(1, 0) + line.format(2, 50), encoding="utf-8")
+        frames = json.loads(run("run", scenario, "--frames", "40", "--json").stdout)["frames"]
+        eyes = {slave: [row["eye_percent"] for row in frames if row["slave"] == slave] for slave in (1, 2)}
+        self.assertEqual(set(eyes[1]), {100})  # all edges at one clock
+        self.assertLess(max(eyes[2]), 90)
+        self.assertIn(min(eyes[2]), (40, 50, 60))
+        self.assertRegex(run("run", scenario, "--frames", "1").stdout, r"eye/%  state\n")
+        registers = run("regs", scenario, "--frames", "1").stdout
+        self.assertIn("EYE_WIDTH[0] = 0x0A", registers)
+        self.assertIn("EYE_VALID[1] = 1", registers)
+        self.assertIn("EYE_LIMIT", registers)
+        # A line that is gone has no number, and not the one of before.
+        with scenario.open("a", encoding="utf-8") as file:
+            file.write('[[fault]]\nkind = "unplug"\nslave = 1\nat_us = 100\n')
+        frames = json.loads(run("run", scenario, "--frames", "10", "--json").stdout)["frames"]
+        last = [row for row in frames if row["slave"] == 1][-1]
+        self.assertIsNone(last["eye_percent"])
+        # Other dividers leave the word to the acknowledge.
+        slow = self.folder / "slow.toml"
+        slow.write_text(text + "[host]\nma_hz = 1_000_000\n" + line.format(1, 0), encoding="utf-8")
+        row = json.loads(run("run", slow, "--frames", "1", "--json").stdout)["frames"][0]
+        self.assertEqual((row["state"], row["eye_percent"]), ("ok", None))
+
     def test_plot_draws_a_frame_of_any_channel(self):
         scenario = self.path(channel(1) + channel(6, slave="data = 0x1234567\n"))
         result = run("plot", scenario, "--channel", "6")

@@ -512,6 +512,8 @@ class Cli(CliTest):
                 (["--delays", "0.0001"], "expected a number"),
                 (["--jitters", "10%"], "--jitters: '10%'"), (["--jitters", "1,,2"], "expected"),
                 (["--jitters", "nan"], "expected a number"),
+                (["--skews", "101"], "--skews: '101': expected a number of -100 to 100"),
+                (["--skews", "x"], "--skews: 'x'"),
                 (["--freqs", "32"], "whole number of 0 to 31"), (["--freqs", "1.5"], "whole"),
                 (["--freqs", "16"], "does not permit code 16"), (["--frames", "0"], "--frames"),
                 (["--delays", "0:1999:1", "--jitters", "0:999:1"], "points are more than"),

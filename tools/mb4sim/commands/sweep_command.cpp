@@ -161,8 +161,8 @@ SweepPoint measure_at(sim::Scenario scenario, const Sweep& sweep, const Place& p
     }
   }
   const std::uint64_t skew = static_cast<std::uint64_t>(plane.skew_mpercent.value_or(0)) << 40U;
-  const std::uint64_t part =
-      skew + (std::uint64_t{code} << 32U) + place.delay * sweep.jitters_mpercent.size() + place.jitter + 1;
+  const std::uint64_t part = skew + (std::uint64_t{code} << 32U) +
+                             place.delay * sweep.jitters_mpercent.size() + place.jitter + 1;
   return measure(scenario, sweep.frames, sim::derive_seed(sweep.seed, part));
 }
 

@@ -29,9 +29,9 @@ inline constexpr long long kI305 = 25'000;
 // One code of the MA frequency, or of another rule, with one skew; points[delay][jitter].
 struct SweepPlane {
   unsigned code = 0;
-  std::uint64_t ma_hz = 0;             // bits a second, for codes that are no frequencies
-  long long allowed_mpercent = kI305;  // jitter up to which every word must be good
-  std::string title;                   // empty: of the frequency
+  std::uint64_t ma_hz = 0;                   // bits a second, for codes that are no frequencies
+  long long allowed_mpercent = kI305;        // jitter up to which every word must be good
+  std::string title;                         // empty: of the frequency
   std::optional<long long> skew_mpercent{};  // of SL; empty: that of the scenario
   std::vector<std::vector<SweepPoint>> points;
 };

@@ -38,15 +38,18 @@ def timing(record: Edges, axes: Optional[Axes] = None) -> Axes:
     return axes
 
 
-def _start_bit(rising: npt.NDArray[Any], period: int, sl: Any) -> int:
-    """When SL rose with the start bit of the last frame in a record."""
+def _start_bit(rising: npt.NDArray[Any], period: int, sl: Any, end: int) -> int:
+    """When SL rose with the start bit of the last frame that has ended in a record: a pause comes
+    behind it."""
     times, levels = sl
-    pauses = np.flatnonzero(np.diff(rising) > 4 * period)
-    begin = rising[pauses[-1] + 1] if len(pauses) else rising[0]
+    begins = rising[np.flatnonzero(np.diff(rising, prepend=-end) > 4 * period)]
+    if end - rising[-1] < 10 * period:
+        begins = begins[:-1]
+    begin = begins[-1] if len(begins) else end
     acknowledge = times[(times > begin) & (levels == 0)][:1]
     start = times[(times > acknowledge) & (levels == 1)][:1] if len(acknowledge) else acknowledge
     if not len(start):
-        raise Error("eye: the last frame of the record has no start bit to lay the measured eye at")
+        raise Error("eye: no frame has ended in the record, so there is no place for the measured eye")
     return int(start[0])
 
 
@@ -75,9 +78,11 @@ def eye(record: Edges, ma: str = "MA1", sl: str = "SL1", axes: Optional[Axes] = 
         axes.step(inside[-len(values):] / 1000, values, where="post", color=GOOD, alpha=0.15,
                   linewidth=1.2)
     axes.axvline(0, color=BAD, linewidth=1.0, label=f"{ma} rises")
+    where = "center right"
     if measured is not None:
+        where = "upper right"
         width, point, clock = measured
-        start = _start_bit(rising, period, record.pins[sl])
+        start = _start_bit(rising, period, record.pins[sl], record.end_ps)
         behind = (start - rising[rising <= start][-1]) % period
         for turn in (-2, -1, 0):
             at = (behind + turn * period) / 1000 + point * clock
@@ -89,7 +94,7 @@ def eye(record: Edges, ma: str = "MA1", sl: str = "SL1", axes: Optional[Axes] = 
     axes.set_yticks((0, 1))
     axes.set_ylabel(sl)
     axes.set_xlabel(f"time from a rising edge of {ma} / ns")
-    axes.legend(loc="center right")
+    axes.legend(loc=where)
     return axes
 
 

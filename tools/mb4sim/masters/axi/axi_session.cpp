@@ -29,20 +29,25 @@ constexpr std::uint32_t kNoAcknowledge = regs::LINE_DELAY::kMax;
 
 // Words of one channel, which the index register chooses.
 constexpr bool of_channel(unsigned address) {
-  constexpr unsigned kAll[] = {
-      regs::kAddrReceivedCrc,   regs::kAddrCalculatedCrc, regs::kAddrSinglePointData,
-      regs::kAddrLineDelay,     regs::kAddrPositionHigh,  regs::kAddrFrameCount,
-      regs::kAddrCrcErrorCount, regs::kAddrLateCount,     regs::kAddrDelayReference,
-      regs::kAddrLastStatus,    regs::kAddrLastPosition,  regs::kAddrLastPositionHigh,
-      regs::kAddrEye};
+  constexpr unsigned kAll[] = {regs::kAddrReceivedCrc,
+                               regs::kAddrCalculatedCrc,
+                               regs::kAddrSinglePointData,
+                               regs::kAddrLineDelay,
+                               regs::kAddrPositionHigh,
+                               regs::kAddrFrameCount,
+                               regs::kAddrCrcErrorCount,
+                               regs::kAddrLateCount,
+                               regs::kAddrDelayReference,
+                               regs::kAddrLastStatus,
+                               regs::kAddrLastPosition,
+                               regs::kAddrLastPositionHigh,
+                               regs::kAddrEye};
   return std::find(std::begin(kAll), std::end(kAll), address) != std::end(kAll);
 }
 
 // [chip] features = "full" or "frames".
 bool has_extras(const sim::Scenario& scenario) { return scenario.chip.features != 0; }
-bool has_eyes(const sim::Scenario& scenario) {
-  return scenario.chip.features == sim::kAxiFrames;
-}
+bool has_eyes(const sim::Scenario& scenario) { return scenario.chip.features == sim::kAxiFrames; }
 
 // With eyes: their width in percent of a bit, behind the other columns.
 std::span<const WordColumn> eye_columns() {
@@ -268,8 +273,7 @@ RegisterMap AxiSession::registers() {
     for (const ConnectedSlave& slave : slaves_) {
       port_.write(regs::kAddrChannelIndex, slave.channel - 1);
       shown.name = fmt::format("{}[{}]", field.name, slave.channel - 1);
-      shown.word =
-          field.address == regs::kAddrEye ? eye(slave.channel - 1) : read(field.address);
+      shown.word = field.address == regs::kAddrEye ? eye(slave.channel - 1) : read(field.address);
       map.fields.push_back(shown);
     }
   }
