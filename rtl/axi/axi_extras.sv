@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What the BiSS C master has beyond its document, as far as it is no part of a channel: the page,
-// counters, line delays, register access, last words, eyes. Extras says which of them there are; without
-// any nothing is built, and start_o is start_i. EXTRA_ALIGN acts without EXTRA_PAGE, the others do
-// not.
+// counters, line delays, register access, last words, eyes. Extras says which of them there are;
+// without any nothing is built, and start_o is start_i. EXTRA_ALIGN acts without EXTRA_PAGE, the
+// others do not.
 //
 // Clock domain: core. Latency and misuse: see the modules.
 // Source: regmap/axi.rdl; docs/axi.md.

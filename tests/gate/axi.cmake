@@ -8,12 +8,14 @@ add_dependencies(gate_axi_test mb4_gate_models_axi)
 
 # Left out: what needs biss_axi with 1 or 16 channels, and what compares two ways to run the RTL.
 string(JOIN ":" not_with_four_channels *Sixteen* *AlignLatchOf* *AxiAlign*document AxiSteps.*
-  AxiExtras.Identity_* Axi.F1EveryRegister_* Axi.ChannelsThatDoNotAnswer_*)
+  AxiExtras.Identity_* AxiEye.Identity_* AxiEye.BehindSpi_* *AxiEyeOfLines*/1*
+  Axi.F1EveryRegister_* Axi.ChannelsThatDoNotAnswer_*)
 # The share: what takes below some seconds.
 string(JOIN ":" axi_share Axi.F* Axi.CrcRegisters_* Axi.NoStartBit* Axi.LineStuckLow* Axi.Debug*
   Axi.Zero* AxiDriver.ReadSingle_* AxiDriver.Switches* AxiDriver.CallsOfTheManual_* AxiDriver.Page_*
   AxiExtras.PageRegisters_* AxiExtras.Timeout* AxiExtras.Counters_* AxiExtras.SampleTime_*
-  AxiExtras.Interrupts_* AxiExtras.DelayAlarm_* *AxiAlign*)
+  AxiExtras.Interrupts_* AxiExtras.DelayAlarm_* *AxiAlign* AxiEye.Narrow* AxiEye.Unplugged*
+  AxiEye.RegisterAccess_*)
 # All of biss_spi.
 mb4_gate_test(BissSpiTests gate_axi_test AxiSpi.*)
 mb4_gate_test(ShareOfAxiTests gate_axi_test ${axi_share}:-${not_with_four_channels})

@@ -4,6 +4,8 @@
 // place of sim/masters/axi/axi_model.cpp and axi_spi.cpp.
 #include <Vaxi_4_gate.h>
 #include <Vaxi_4_gate___024root.h>
+#include <Vaxi_frames_4_gate.h>
+#include <Vaxi_frames_4_gate___024root.h>
 #include <Vaxi_full_4_gate.h>
 #include <Vaxi_full_4_gate___024root.h>
 #include <Vaxi_spi_1_gate.h>
@@ -47,6 +49,7 @@ std::unique_ptr<AxiModel> make(const ChipConfig& chip, std::uint64_t seed) {
 std::unique_ptr<AxiModel> make_axi_model(const ChipConfig& chip, unsigned channels,
                                          std::uint64_t seed, bool /*plain*/) {
   if (channels > 4) throw std::runtime_error("the netlists have four channels");
+  if (chip.features == kAxiFrames) return make<Vaxi_frames_4_gate>(chip, seed);
   return chip.features == kAxiFull ? make<Vaxi_full_4_gate>(chip, seed)
                                    : make<Vaxi_4_gate>(chip, seed);
 }
@@ -54,6 +57,7 @@ std::unique_ptr<AxiModel> make_axi_model(const ChipConfig& chip, unsigned channe
 std::unique_ptr<AxiModel> make_axi_spi_model(const ChipConfig& chip, unsigned channels,
                                              std::uint64_t seed, bool /*plain*/) {
   if (channels > 4) throw std::runtime_error("the netlists have four channels");
+  if (chip.features == kAxiFrames) throw std::runtime_error("no netlist of biss_spi by frames");
   if (chip.features == kAxiFull) return make<Vaxi_spi_full_4_gate, 4, InsideSpi>(chip, seed);
   return channels == 1 ? make<Vaxi_spi_1_gate, 1, InsideSpi>(chip, seed)
                        : make<Vaxi_spi_4_gate, 4, InsideSpi>(chip, seed);

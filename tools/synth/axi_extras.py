@@ -22,7 +22,7 @@ CHANNELS = (1, 4)
 # Name and the value of EXTRAS; each of them but ALIGN_LATCH, the parameter of its own, has the page, bit 0.
 EXTRAS = {
     "none": 0, "ALIGN_LATCH": 0, "PAGE": 0x001, "WIDE": 0x003, "ANY_CRC": 0x005, "TIMEOUT": 0x009, "COUNTERS": 0x011,
-    "STAMP": 0x021, "ALARM": 0x041, "ACCESS": 0x081, "LAST": 0x201, "all": 0x3FF,
+    "STAMP": 0x021, "ALARM": 0x041, "ACCESS": 0x081, "LAST": 0x201, "FRAME_SAMPLER": 0x401, "all": 0x7FF,
 }
 
 

@@ -52,45 +52,49 @@ TEST(AxiEye, Identity_HasTheSampler) {
 
 // Lines with delays of their own and half a bit of jitter, 1, 4 and 16 channels: each word is right
 // and each eye that of its line.
-TEST(AxiEye, LinesThatJitter_AreReadAndTold) {
-  for (const unsigned channels : {1U, 4U, 16U}) {
-    std::vector<AxiEncoder> encoders(channels);
+class AxiEyeOfLines : public testing::TestWithParam<unsigned> {};
+
+TEST_P(AxiEyeOfLines, LinesThatJitter_AreReadAndTold) {
+  const unsigned channels = GetParam();
+  std::vector<AxiEncoder> encoders(channels);
+  for (unsigned c = 0; c < channels; ++c) {
+    encoders[c].delay_ns = 17.3 * c + 5;
+    encoders[c].keys = jitter(50.0 * c / channels);
+  }
+  AxiBench bench(frames(axi_scenario(encoders)));
+  Port port{bench};
+  biss_axi::Page page(port);
+  bench.set_up(26, kClocks / 2);
+  sim::Random random(channels);
+  std::vector<unsigned> smallest(channels, 31);
+  for (int round = 0; round < 60; ++round) {
+    std::vector<std::uint64_t> sent;
     for (unsigned c = 0; c < channels; ++c) {
-      encoders[c].delay_ns = 17.3 * c + 5;
-      encoders[c].keys = jitter(50.0 * c / channels);
+      sent.push_back(random.next() & 0x3FF'FFFFU);
+      bench.simulator.slave(c + 1)->set_data(raw_word(sent.back()));
     }
-    AxiBench bench(frames(axi_scenario(encoders)));
-    Port port{bench};
-    biss_axi::Page page(port);
-    bench.set_up(26, kClocks / 2);
-    sim::Random random(channels);
-    std::vector<unsigned> smallest(channels, 31);
-    for (int round = 0; round < 60; ++round) {
-      std::vector<std::uint64_t> sent;
-      for (unsigned c = 0; c < channels; ++c) {
-        sent.push_back(random.next() & 0x3FF'FFFFU);
-        bench.simulator.slave(c + 1)->set_data(raw_word(sent.back()));
-      }
-      const auto beat = bench.frame();
-      ASSERT_TRUE(beat);
-      ASSERT_EQ(beat->user, (1U << channels) - 1U);
-      for (unsigned c = 0; c < channels; ++c) {
-        ASSERT_EQ(bench.read(c, axireg::kAddrSinglePointData), sent[c]);
-        const auto eye = page.eye(c);
-        ASSERT_TRUE(eye.ok());
-        ASSERT_TRUE(eye->valid && eye->used);
-        ASSERT_EQ(eye->before + eye->after + 1, eye->width);
-        ASSERT_GE(eye->point, eye->before);
-        ASSERT_LT(eye->point + eye->after, kClocks);
-        smallest[c] = std::min<unsigned>(smallest[c], eye->smallest);
-      }
-    }
+    const auto beat = bench.frame();
+    ASSERT_TRUE(beat);
+    ASSERT_EQ(beat->user, (1U << channels) - 1U);
     for (unsigned c = 0; c < channels; ++c) {
-      const double free = kClocks * (1 - 0.5 * c / channels);
-      EXPECT_LE(std::abs(smallest[c] - free), 1.0) << c << " of " << channels;
+      ASSERT_EQ(bench.read(c, axireg::kAddrSinglePointData), sent[c]);
+      const auto eye = page.eye(c);
+      ASSERT_TRUE(eye.ok());
+      ASSERT_TRUE(eye->valid && eye->used);
+      ASSERT_EQ(eye->before + eye->after + 1, eye->width);
+      ASSERT_GE(eye->point, eye->before);
+      ASSERT_LT(eye->point + eye->after, kClocks);
+      smallest[c] = std::min<unsigned>(smallest[c], eye->smallest);
     }
   }
+  for (unsigned c = 0; c < channels; ++c) {
+    const double free = kClocks * (1 - 0.5 * c / channels);
+    EXPECT_LE(std::abs(smallest[c] - free), 1.0) << c << " of " << channels;
+  }
 }
+
+INSTANTIATE_TEST_SUITE_P(Channels, AxiEyeOfLines, testing::Values(1U, 4U, 16U),
+                         testing::PrintToStringParamName());
 
 // Without the extra the same line costs words.
 TEST(AxiEye, SameLineWithoutTheSampler_LosesWords) {

@@ -4,10 +4,14 @@
 // the place of sim/masters/axi/axi_model.cpp and axi_spi.cpp.
 #include <Vmeasured_axi_4.h>
 #include <Vmeasured_axi_4___024root.h>
+#include <Vmeasured_axi_frames_4.h>
+#include <Vmeasured_axi_frames_4___024root.h>
 #include <Vmeasured_axi_full_4.h>
 #include <Vmeasured_axi_full_4___024root.h>
 #include <Vmeasured_axi_spi_4.h>
 #include <Vmeasured_axi_spi_4___024root.h>
+#include <Vmeasured_axi_spi_frames_4.h>
+#include <Vmeasured_axi_spi_frames_4___024root.h>
 #include <Vmeasured_axi_spi_full_4.h>
 #include <Vmeasured_axi_spi_full_4___024root.h>
 
@@ -44,6 +48,7 @@ std::unique_ptr<AxiModel> make(const ChipConfig& chip, std::uint64_t seed) {
 std::unique_ptr<AxiModel> make_axi_model(const ChipConfig& chip, unsigned channels,
                                          std::uint64_t seed, bool /*plain*/) {
   if (channels > 4) throw std::runtime_error("the measured models have four channels");
+  if (chip.features == kAxiFrames) return make<Vmeasured_axi_frames_4>(chip, seed);
   return chip.features == kAxiFull ? make<Vmeasured_axi_full_4>(chip, seed)
                                    : make<Vmeasured_axi_4>(chip, seed);
 }
@@ -51,6 +56,7 @@ std::unique_ptr<AxiModel> make_axi_model(const ChipConfig& chip, unsigned channe
 std::unique_ptr<AxiModel> make_axi_spi_model(const ChipConfig& chip, unsigned channels,
                                              std::uint64_t seed, bool /*plain*/) {
   if (channels > 4) throw std::runtime_error("the measured models have four channels");
+  if (chip.features == kAxiFrames) return make<Vmeasured_axi_spi_frames_4, InsideSpi>(chip, seed);
   return chip.features == kAxiFull ? make<Vmeasured_axi_spi_full_4, InsideSpi>(chip, seed)
                                    : make<Vmeasured_axi_spi_4, InsideSpi>(chip, seed);
 }
