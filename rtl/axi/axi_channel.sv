@@ -121,6 +121,7 @@ module axi_channel #(
   logic        rests;          // MA is 1 and stays 1
   logic        sl, ack, late, bit_valid, sl_bit;
   logic        framed;         // biss_frame_sampler takes the word
+  logic        median;
   logic        started;        // with bit_valid: the start bit has come
   logic        word_valid, word_bit;
   logic [9:0]  delay;
@@ -138,7 +139,7 @@ module axi_channel #(
     .rst_ni,
     .sl_i        (slo_i),
     .half_last_i (frame_i.half_last),
-    .median_i    (framed),
+    .median_i    (median),
     .clear_i     (start),
     .armed_i     (state_q == ACK),
     .sl_o        (sl),
@@ -201,6 +202,7 @@ module axi_channel #(
 
   if (FrameSampler) begin : gen_frame_sampler
     logic usable, rose, frame_valid, frame_bit, eye_valid, taken, shown;
+    logic usable_q;
     logic [4:0] width, last;
     logic       eye_valid_q;
     logic [4:0] eye_width_q;
@@ -224,9 +226,16 @@ module axi_channel #(
       .eye_last_o  (last)
     );
 
+    // frame_i stays while a frame runs.
+    always_ff @(posedge clk_i or negedge rst_ni) begin
+      if (!rst_ni) usable_q <= 1'b0;
+      else         usable_q <= usable;
+    end
+
     assign framed     = usable;
-    assign taken      = usable && (state_q == DATA || state_q == CRC);
-    assign started    = usable ? rose : sl_bit;
+    assign median     = usable_q;
+    assign taken      = usable_q && (state_q == DATA || state_q == CRC);
+    assign started    = usable_q ? rose : sl_bit;
     assign word_valid = taken ? frame_valid : bit_valid;
     assign word_bit   = taken ? frame_bit : sl_bit;
     assign shown      = ended_q && eye_valid && enabled_i && !clear_i;
@@ -236,10 +245,10 @@ module axi_channel #(
         eye_valid_q <= 1'b0;
         eye_width_q <= '0;
         eye_last_q  <= '0;
-      end else if (clear_i || !enabled_i || ended_q || fail || late_start) begin
-        eye_valid_q <= shown;
-        eye_width_q <= width & {5{shown}};
-        eye_last_q  <= last & {5{shown}};
+      end else begin
+        if (clear_i || !enabled_i || ended_q || fail || late_start) eye_valid_q <= shown;
+        if (shown) eye_width_q <= width;
+        if (shown) eye_last_q  <= last;
       end
     end
 
@@ -249,6 +258,7 @@ module axi_channel #(
     assign eye_o.last  = eye_last_q;
   end else begin : gen_no_frame_sampler
     assign framed     = 1'b0;
+    assign median     = 1'b0;
     assign started    = sl_bit;
     assign word_valid = bit_valid;
     assign word_bit   = sl_bit;

@@ -94,11 +94,13 @@ module axi_eye #(
       axi_regs_pkg::ADDR_EYE: begin
         data_o[31]    = eye.valid;
         data_o[30]    = eye.used;
-        data_o[28:25] = eye.width[4:1];
-        data_o[24:21] = eye.width[4:1] - 4'(eye.valid && !eye.width[0]);
-        data_o[20:16] = smallest & {5{eye.valid}};
-        data_o[12:8]  = eye.last - {1'b0, eye.width[4:1]};
-        data_o[4:0]   = eye.width;
+        if (eye.valid) begin
+          data_o[28:25] = eye.width[4:1];
+          data_o[24:21] = eye.width[4:1] - 4'(!eye.width[0]);
+          data_o[20:16] = smallest;
+          data_o[12:8]  = eye.last - {1'b0, eye.width[4:1]};
+          data_o[4:0]   = eye.width;
+        end
       end
       axi_regs_pkg::ADDR_EYE_LIMIT: data_o[4:0]          = limit_q;
       axi_regs_pkg::ADDR_EYE_ALARM: data_o[Channels-1:0] = alarms;

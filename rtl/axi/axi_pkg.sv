@@ -85,7 +85,8 @@ package axi_pkg;
     logic [9:0]  calculated_high;
   } more_t;
 
-  // The eye of a channel's line in its last frame. All registers, or 0 without the extra.
+  // The eye of a channel's line in its last frame: with valid = 0 it has none, and width and last
+  // are older. All registers, or 0 without the extra.
   typedef struct packed {
     logic        valid;
     logic        used;          // biss_frame_sampler takes the words at this MA divider

@@ -7,10 +7,11 @@
 // The ports that both have mean the same.
 //
 // Clock domain: core; SL is asynchronous. Latency: a sample is used three clocks after it was
-// taken, with median_i six clocks.
+// taken, with Median = 1 later.
 //
 // - median_i = 1, with Median = 1: the level is what most of five samples in a row say, so a pulse
-//   of one or two clocks is none. Level and bits come later by this; delay_o is the same.
+//   of one or two clocks is none. Level and bits come three clocks later, with median_i = 0 one;
+//   delay_o is the same.
 // - Delay: delay_o counts the whole clocks from the second rising MA edge (armed_i rises with it)
 //   to the acknowledge, SL = 0. Without line delay it is 0. late_o: it has reached 1023.
 // - Bits: the first bit is taken half an MA period after the clock that saw the acknowledge, the
@@ -70,7 +71,7 @@ module biss_delay_sampler #(
 
   if (Median) begin : gen_median
     logic [3:0] before_q;
-    logic       most_q;     // the median
+    logic       most_q;     // the median, or one clock later
     logic [2:0] ones;
 
     always_comb begin
@@ -84,12 +85,12 @@ module biss_delay_sampler #(
         most_q   <= 1'b1;
       end else begin
         before_q <= {before_q[2:0], level};
-        most_q   <= ones > 3'd2;
+        most_q   <= median_i ? ones > 3'd2 : level;
       end
     end
 
-    assign sl    = median_i ? most_q : level;
-    assign armed = median_i ? armed_q[4] : armed_q[1];
+    assign sl    = most_q;
+    assign armed = median_i ? armed_q[4] : armed_q[2];
   end else begin : gen_plain
     logic unused;
     assign sl     = level;

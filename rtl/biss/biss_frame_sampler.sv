@@ -71,12 +71,13 @@ module biss_frame_sampler (
   logic       oldest;            // mark of P clocks ago
   logic       mark;              // this place has one
   logic       scan;              // the last bit
-  logic       look;              // a gap ends
   logic       open;              // at the end of the last bit, without a mark
   logic [4:0] gap_q;             // clocks since the last mark
   logic [4:0] width_q;           // the widest gap so far
   logic [4:0] last_q;            // its last place
-  logic       wider;
+  logic       least;             // a gap of one clock more is wider
+  logic       wider_q;           // gap_q is wider than width_q
+  logic       found;             // the widest gap so far ends
   logic [5:0] unused_sum;
   logic       point_q;
   logic       read_q;
@@ -133,37 +134,40 @@ module biss_frame_sampler (
       else                      place_q <= turn ? 5'd0 : place_q + 5'd1;
       if (!started_q)           bit_q   <= START;
       else if (turn)            bit_q   <= bit_q + 7'd1;
-      data_q    <= started_q && (data_q || (turn && bit_q == CDS));
+      data_q    <= !clear_i && started_q && (data_q || (turn && bit_q == CDS));
       marks_q   <= clear_i ? '0 : {marks_q[MOST-2:0], mark};
     end
   end
 
   // ---- the widest gap -----------------------------------------------------------------------
 
-  assign scan = started_q && !point_q && !read_q && bit_q == bit_last_i;
-  assign look = scan && (mark || turn) && place_q != 5'd0;
-  assign open = turn && !mark;
+  assign scan  = started_q && !point_q && !read_q && bit_q == bit_last_i;
+  assign open  = turn && !mark;
+  assign found = scan && (mark ? wider_q && place_q != 5'd0 : turn && least);
 
-  // The carry of this sum compares: gap_q > width_q, or gap_q + 1 where the gap is open.
-  assign {wider, unused_sum} = {1'b0, gap_q, open} + {1'b0, ~width_q, open};
+  // The carry of this sum compares: gap_q + 1 > width_q.
+  assign {least, unused_sum} = {1'b0, gap_q, 1'b1} + {1'b0, ~width_q, 1'b1};
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       gap_q   <= '0;
+      wider_q <= 1'b0;
       width_q <= '0;
       last_q  <= '0;
       point_q <= 1'b0;
       read_q  <= 1'b0;
     end else if (run_i) begin
       gap_q   <= mark ? 5'd1 : gap_q + 5'd1;
+      // Behind a mark no gap has been found before only at place 0.
+      wider_q <= mark ? place_q == 5'd0 : least;
       if (!started_q) begin
         width_q <= '0;
         last_q  <= '0;
-      end else if (look && wider) begin
+      end else if (found) begin
         width_q <= gap_q + 5'(open);
         last_q  <= open ? place_q : place_q - 5'd1;
       end
-      point_q <= scan && turn;
+      point_q <= !clear_i && scan && turn;
       read_q  <= !clear_i && (read_q || point_q);
     end
   end

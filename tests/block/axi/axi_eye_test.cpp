@@ -52,7 +52,8 @@ TEST(AxiEyeBlock, FramesAtRandom_AreShownWithTheirSmallestAndAlarms) {
     std::uint64_t eyes = 0;
     for (unsigned c = 0; c < kChannels; ++c) {
       const std::uint64_t eye = eye_t::kValid(shown[c].valid) | eye_t::kUsed(1) |
-                                eye_t::kWidth(shown[c].width) | eye_t::kLast(shown[c].last);
+                                eye_t::kWidth(shown[c].valid ? shown[c].width : dice.below(21)) |
+                                eye_t::kLast(shown[c].valid ? shown[c].last : dice.below(20));
       eyes |= eye << (c * kEyeBits);
     }
     m.eyes_i = eyes;

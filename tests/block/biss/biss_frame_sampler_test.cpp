@@ -107,7 +107,7 @@ TEST_F(FrameSamplerBlock, FramesAtRandom_BitsAndEyeAreThoseOfTheSamples) {
   for (int round = 0; round < 1500 && !HasFailure(); ++round) {
     const unsigned half = 5 + dice.below(6), bits = 9 + dice.below(dice.below(3) == 0 ? 3 : 79),
                    period = 2 * half;
-    const unsigned moves = dice.below(period - 4);
+    const unsigned moves = dice.below(period);
     frame(half, bits, dice.below(5) == 0 ? dice.below(900) : dice.below(4), moves);
     const std::size_t end = rise + std::size_t{bits} * period;
     const Eye eye = widest(samples, rise, end, period);

@@ -162,7 +162,6 @@ class Axi(MasterTest):
         registers = run("regs", scenario, "--frames", "1").stdout
         self.assertIn("EYE_WIDTH[0] = 0x0A", registers)
         self.assertIn("EYE_VALID[1] = 1", registers)
-        self.assertIn("EYE_LIMIT", registers)
         # A line that is gone has no number, and not the one of before.
         with scenario.open("a", encoding="utf-8") as file:
             file.write('[[fault]]\nkind = "unplug"\nslave = 1\nat_us = 100\n')
