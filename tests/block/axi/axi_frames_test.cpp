@@ -157,6 +157,44 @@ TEST(AxiFramesBlock, StrayPulse_DoesNotMoveThePoint) {
   EXPECT_GT(tried, 1000U);
 }
 
+// A frame that is ended at any instant by the channel enable, a soft reset or a reset: the next one
+// is as good, and its eye is its own.
+TEST(AxiFramesBlock, FrameThatIsEnded_LeavesNothingBehind) {
+  Dice dice;
+  Line line(26, 5);
+  line.jitter = [&] { return line.period() * 45 / 100 * dice.below(4096) / 4096; };
+  for (int round = 0; round < 600; ++round) {
+    line.delay = line.period() * dice.below(121) / 10 + dice.below(Line::kUnit);
+    line.slave.busy = dice.below(10);
+    line.slave.payload = "0" + bits_of(dice.below(1U << 28U), 28) + bits_of(dice.below(64), 6);
+    line.m.start_i = 1;
+    line.clock();
+    line.m.start_i = 0;
+    const unsigned instant = dice.below(700);
+    for (unsigned i = 0; i < instant; ++i) line.clock();
+    switch (dice.below(3)) {
+      case 0:
+        line.m.enabled_i = 0;
+        break;
+      case 1:
+        line.m.clear_i = 1;
+        break;
+      default:
+        line.reset();
+    }
+    line.clock();
+    line.m.enabled_i = 1;
+    line.m.clear_i = 0;
+    for (unsigned i = 0; line.m.busy_o != 0 && i < 6000; ++i) line.clock();
+    ASSERT_EQ(line.m.busy_o, 0);
+    EXPECT_EQ(line.eye(), Eye{});
+    const std::uint64_t sent = dice.below(1U << 26U);
+    line.frame(sent);
+    ASSERT_TRUE(line.good() && line.position() == sent) << round;
+    ASSERT_EQ(line.eye(), line.expected()) << round;
+  }
+}
+
 TEST(AxiFramesBlock, OtherDividers_AreLeftToTheAcknowledge) {
   namespace at = places::axi_pkg::eye_t;
   for (const unsigned half : {1U, 2U, 4U, 11U, 12U, 20U, 21U, 26U, 50U, 255U}) {
