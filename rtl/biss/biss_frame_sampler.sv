@@ -26,7 +26,7 @@
 // usable_o: P is 10 to 20. Outside of it started_o, bit_valid_o and eye_valid_o stay 0.
 //
 // Misuse: half_last_i and bit_last_i must not change while a frame runs. Bits behind the last one
-// are what SL was later.
+// mean nothing.
 // Source: docs/samplers.md.
 
 `include "enc_check.svh"

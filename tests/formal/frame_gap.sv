@@ -12,12 +12,12 @@
 // depth: 46
 // cover: 46
 // unbounded: no: the guessed places would have to be tied to the marks that turn
-// mutation: biss/biss_frame_sampler.sv | {1'b0, gap_q, open} + {1'b0, ~width_q, open} | {1'b0, gap_q, 1'b1} + {1'b0, ~width_q, 1'b1}
-// mutation: biss/biss_frame_sampler.sv | scan && (mark || turn) && | scan && mark &&
-// mutation: biss/biss_frame_sampler.sv | assign open = turn && !mark; | assign open = turn;
+// mutation: biss/biss_frame_sampler.sv | {1'b0, gap_q, 1'b1} + {1'b0, ~width_q, 1'b1} | {1'b0, gap_q, 1'b1} + {1'b0, ~width_q, 1'b0}
+// mutation: biss/biss_frame_sampler.sv | : turn && least); | : 1'b0);
+// mutation: biss/biss_frame_sampler.sv | assign open  = turn && !mark; | assign open  = turn;
 // mutation: biss/biss_frame_sampler.sv | oldest = marks_q[9]; | oldest = marks_q[8];
 // mutation: biss/biss_frame_sampler.sv | assign mark   = oldest | assign mark   = 1'b0
-// mutation: biss/biss_frame_sampler.sv | && place_q != 5'd0; | ;
+// mutation: biss/biss_frame_sampler.sv | wider_q && place_q != 5'd0 | wider_q
 // mutation: biss/biss_frame_sampler.sv | open ? place_q : place_q - 5'd1; | place_q;
 
 module proof (
@@ -35,7 +35,7 @@ module proof (
   logic [4:0] width, last;
 
   biss_frame_sampler u_dut (
-    .clk_i, .rst_ni, .sl_i, .half_last_i (8'd4), .bit_last_i (7'd5), .clear_i, .ack_i,
+    .clk_i, .rst_ni, .sl_i, .half_last_i (8'd4), .bit_last_i (7'd5), .run_i (1'b1), .clear_i, .ack_i,
     .usable_o (usable), .started_o (rose), .bit_valid_o (bit_valid), .bit_o (frame_bit),
     .eye_valid_o (eye_valid), .eye_width_o (width), .eye_last_o (last)
   );

@@ -43,7 +43,7 @@
 // mutation: biss/biss_frame_sampler.sv | assign fetch = read_q && time_q[TIME_W-1:ROW_W] != now_q[TIME_W-1:ROW_W];
 //   | assign fetch = read_q;
 // mutation: biss/biss_frame_sampler.sv | data_q    <= !clear_i && started_q && | data_q    <= started_q &&
-// mutation: biss/biss_frame_sampler.sv | point_q <= scan && turn && !clear_i; | point_q <= scan && turn;
+// mutation: biss/biss_frame_sampler.sv | point_q <= !clear_i && scan && turn; | point_q <= scan && turn;
 // mutation: biss/biss_frame_sampler.sv | last_q - {1'b0, width_q[4:1]} | last_q - {1'b0, width_q[4:1]} - 5'd1
 // mutation: biss/biss_frame_sampler.sv | {sl_i, row_q}), | {row_q, sl_i}),
 // mutation: biss/biss_frame_sampler.sv | !started_q && ones_q == 2'b11 && sl_i; | !started_q && ones_q[0] && sl_i;
@@ -68,7 +68,7 @@ module proof (
   logic [4:0]  eye_width, eye_last;
 
   biss_frame_sampler u_dut (
-    .clk_i, .rst_ni, .sl_i, .half_last_i, .bit_last_i, .clear_i, .ack_i,
+    .clk_i, .rst_ni, .sl_i, .half_last_i, .bit_last_i, .run_i (1'b1), .clear_i, .ack_i,
     .usable_o (usable), .started_o (rose), .bit_valid_o (bit_valid), .bit_o (frame_bit),
     .eye_valid_o (eye_valid), .eye_width_o (eye_width), .eye_last_o (eye_last)
   );
