@@ -117,10 +117,9 @@ class Device {
   Result<void> verify() { return detail::Blocking::verify(chip_); }
 
   // Begins verify() without a transfer: the caller makes the frames of `operation` and calls
-  // finish() until it returns true. Four steps of one frame, as verify(), which may stand beside
-  // reads of positions and a control communication that runs.
-  // kNotConfigured (not touched). operation.result(): kTransport, kNotDetected, kVerify as of
-  // verify(). Wrong use: operation.hpp.
+  // finish() until it returns true. Three steps, of four frames, as verify(), which may stand
+  // beside reads of positions and a control communication that runs. kNotConfigured (not touched).
+  // operation.result(): kTransport, kNotDetected, kVerify as of verify(). Wrong use: operation.hpp.
   Result<void> plan_verify(Operation& operation) {
     const Result<void> allowed = detail::Procedures::possible(
         operation, chip_.configured ? Error::kNone : Error::kNotConfigured);

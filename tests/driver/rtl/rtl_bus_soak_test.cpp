@@ -398,10 +398,10 @@ TEST(DriverBus, ReadingOfZerosIsAWrite_NoForeignPosition) {
   std::array<std::uint8_t, 2> out{};
   for (const bool writes : {true, false}) {
     // What SCDATA1 holds behind each reading of RDATA: 0x80 and the fillers. A read has one of
-    // RDATA1 alone, and then one of all.
+    // RDATA1 alone, and then two of all.
     const std::vector<std::uint64_t> behind =
         writes ? std::vector<std::uint64_t>{0xD000080}
-               : std::vector<std::uint64_t>{0xD005A80, 0xD5A5A80};
+               : std::vector<std::uint64_t>{0xD005A80, 0xD5A5A80, 0xD000080};
     for (unsigned turn = 0; turn < 8 * behind.size(); ++turn) {
       const unsigned which = turn / 8;  // of the readings
       const std::uint64_t word = behind[which] ^ kFits;
@@ -441,6 +441,66 @@ TEST(DriverBus, ReadingOfZerosIsAWrite_NoForeignPosition) {
       EXPECT_TRUE(hit);
       EXPECT_TRUE(access.result().ok() || access.result().error() == mb4::Error::kCorrupted);
       EXPECT_GE(good, 20U);
+    }
+  }
+}
+
+// The same for verify(): 0xD0 to 0xE1 are 0 where channel 2 has no slave. The reading puts 0xD0 and
+// zeros into SCDATA1 to 3. For a word of zeros the CRC 0 is right.
+TEST(DriverBus, VerifyThatWrites_NoForeignPosition) {
+  for (const bool steps : {true, false}) {
+    for (unsigned phase = 0; phase < 8; ++phase) {
+      SCOPED_TRACE((steps ? "in steps, phase " : "phase ") + std::to_string(phase));
+      mb4test::Setup setup;
+      setup.check = SpiCheck::kFull;
+      setup.bus = mb4test::Bus::kTwo;
+      setup.way = mb4test::Way::kPoll;
+      Rig rig(setup);
+      constexpr std::array<std::uint64_t, 2> kWords{0x1234567, 0x89ABCDE};
+      for (unsigned i = 0; i < 2; ++i) ASSERT_TRUE(rig.simulator.slave(i + 1)->set_data(kWords[i]));
+      const sim::Time period = mb4test::period_us(setup) * sim::kPsPerUs;
+      unsigned good = 0;
+      const auto poll = [&] {
+        mb4::Frame frame;
+        if (!rig.device.automatic().poll(frame)) return;
+        for (std::uint8_t i = 0; i < 2; ++i) {
+          const mb4::Result<mb4::Reading>& reading = frame[static_cast<std::uint8_t>(i + 1)];
+          if (!reading) continue;
+          EXPECT_EQ(reading->position, kWords[i]) << "slave " << i + 1;
+          ++good;
+        }
+      };
+      rig.simulator.advance(4 * period);
+      mb4::Frame old;
+      static_cast<void>(rig.device.automatic().poll(old));
+      rig.simulator.advance(period + phase * period / 8);
+      bool hit = false;
+      if (steps) {
+        mb4::Operation verify;
+        ASSERT_TRUE(rig.device.plan_verify(verify).ok());
+        for (bool ended = false; !ended;) {
+          for (unsigned i = 0; i < verify.frames(); ++i) {
+            if (verify.tx(i)[1] == 0xD0) rig.bus.plan({MeanKind::kFlipMosi, i, 4});
+          }
+          ended = rig.device.finish(verify, verify.run(rig.bus), rig.clock.now_us());
+          Transfer struck;
+          hit = hit || rig.bus.struck(struck) != nullptr;
+          rig.bus.plan({});
+          if (hit) poll();
+        }
+      } else {
+        rig.bus.plan({MeanKind::kFlipMosi, 2, 4});
+        EXPECT_TRUE(rig.device.verify().ok());
+        Transfer struck;
+        hit = rig.bus.struck(struck) != nullptr && struck.second == 0xD0;
+        rig.bus.plan({});
+      }
+      EXPECT_TRUE(hit);
+      for (unsigned i = 0; i < 4; ++i) {
+        poll();
+        rig.simulator.advance(period);
+      }
+      EXPECT_GE(good, 4U);
     }
   }
 }

@@ -340,24 +340,61 @@ TEST(DriverFaultRelease, StrayAccessBetweenSteps_IsNotTakenForTheNewOne) {
   }
 }
 
+// A status comes before the next byte of 0xF4.
+bool looks(const mb4::Operation& op) {
+  for (unsigned i = 0; i < op.frames(); ++i) {
+    if (op.tx(i)[0] == 0x07) return false;
+    if (op.tx(i)[0] == 0x05) return true;
+  }
+  return false;
+}
+
 // With kFull nothing proves the release of the bank. One bit of it swaps the banks (SWBANK),
-// shortly after a frame that was lost, so that the other bank holds a word that nobody has read. A
-// status of an access that runs sees the bit.
-TEST(DriverFaultRelease, SwapSeenByAnAccess_NeverAnOldPosition) {
+// shortly after a frame that was lost, so that the other bank holds a word that nobody has read.
+// Each operation whose next step looks at the status sees the bit.
+TEST(DriverFaultRelease, SwapSeenByAnOperation_NeverAnOldPosition) {
   auto setup = kRelease;
   setup.check = mb4::SpiCheck::kFull;
-  for (unsigned before = 5; before < 21; ++before) {
-    SCOPED_TRACE("after " + std::to_string(before) + " steps");
-    Drive run(setup);
-    std::array<std::uint8_t, 2> values{};
-    mb4::Operation op;
-    ASSERT_TRUE(run.chip.device.control().plan_read(op, {1, 0}, 0x30, values).ok());
-    EXPECT_TRUE(run.finish(op, before, [&run] {
-      run.chip.simulator.advance(kRelease.period_us * mb4::sim::kPsPerUs);
-      run.chip.bus.plan({FaultKind::kFlipMosi, 6, 6, 10});
-      run.read();
-    }));
-    EXPECT_TRUE(op.result().ok());
+  for (const char* const kind : {"read", "write", "verify"}) {
+    unsigned seen = 0;
+    bool more = true;
+    for (unsigned before = 0; more; ++before) {
+      bool polls = false;  // one time is enough for each of many
+      for (unsigned i = 0; i < (polls ? 1U : 10U); ++i) {
+        const unsigned late_us = 60 + (before + i) % 10 * 10;
+        SCOPED_TRACE(std::string(kind) + ", after " + std::to_string(before) + " steps, " +
+                     std::to_string(late_us) + " us late");
+        Drive run(setup);
+        std::array<std::uint8_t, 2> values{0x12, 0x34};
+        for (std::uint8_t k = 0; k < 2; ++k) {  // zeros would be looked at more closely
+          run.chip.simulator.slave(1)->reg_write(static_cast<std::uint8_t>(0x30 + k), values[k]);
+        }
+        mb4::Operation op;
+        const auto plan = [&] {
+          auto control = run.chip.device.control();
+          return *kind == 'v'   ? run.chip.device.plan_verify(op)
+                 : *kind == 'r' ? control.plan_read(op, {1, 0}, 0x30, values)
+                                : control.plan_write(op, {1, 0}, 0x30, values);
+        };
+        ASSERT_TRUE(plan().ok());  // an access has ended before
+        EXPECT_TRUE(run.finish(op, kNever, [] {}));
+        ASSERT_TRUE(plan().ok());
+        more = false;
+        EXPECT_TRUE(run.finish(op, before, [&] {
+          more = true;
+          polls = op.tx(0)[0] == 0x05;
+          if (looks(op)) {
+            ++seen;
+            run.chip.simulator.advance(late_us * mb4::sim::kPsPerUs);
+            run.chip.bus.plan({FaultKind::kFlipMosi, 6, 6, 10});
+          }
+          run.read();
+        }));
+        EXPECT_TRUE(op.result().ok());
+        for (unsigned k = 0; k < 3; ++k) run.read();
+      }
+    }
+    EXPECT_GE(seen, *kind == 'v' ? 10U : 50U);
   }
 }
 

@@ -154,13 +154,47 @@ TEST_P(DriverOperation, Verify_BesidePositionsFindsAChange) {
   };
   ASSERT_TRUE(chip.device.plan_verify(op).ok());
   EXPECT_TRUE(complete(chip, op, tick).ok());
-  EXPECT_EQ(positions, 3U);  // between four steps
+  EXPECT_EQ(positions, 2U);  // between three steps
   const std::uint8_t other = 0x1A;
   ASSERT_TRUE(chip.device.opcodes().write_registers(0xC8, Span<const std::uint8_t>(&other, 1)));
   ASSERT_TRUE(chip.device.plan_verify(op).ok());
   EXPECT_EQ(complete(chip, op).error(), Error::kVerify);
   EXPECT_EQ(op.result().info().address(), 0xC8);
   EXPECT_FALSE(chip.device.configured());
+}
+
+// The steps of docs/driver.md, "The rest by DMA": those of an access until its status is polled.
+TEST_P(DriverOperation, Steps_AreThoseOfThePage) {
+  FaultyChip chip(kEncoder);
+  Config one = config(true);
+  one.spi_check = GetParam();
+  Operation op;
+  const auto steps = [&](const Result<void>& planned) {
+    EXPECT_TRUE(planned.ok());
+    unsigned count = 0;
+    unsigned begun = 0;
+    for (bool ended = !planned.ok(); !ended; ++count) {
+      const bool polls = op.frames() == 1 && op.tx(0)[0] == 0x05;
+      begun = polls && begun == 0 ? count : begun;
+      if (op.pause_us() != 0) chip.simulator.advance(op.pause_us() * sim::kPsPerUs);
+      ended = chip.device.finish(op, op.run(chip.bus), chip.clock.now_us());
+      chip.simulator.advance(10 * sim::kPsPerUs);
+    }
+    EXPECT_TRUE(op.result().ok()) << mb4::to_string(op.result().error());
+    return begun != 0 ? begun : count;
+  };
+  EXPECT_EQ(steps(chip.device.plan_configure(op, one)), 4U);
+  EXPECT_EQ(steps(chip.device.plan_verify(op)), 3U);
+  ASSERT_TRUE(chip.device.automatic().start().ok());
+  std::array<std::uint8_t, 9> bytes{1, 2, 3, 4, 5, 6, 7, 8, 9};
+  const Span<std::uint8_t> all(bytes);
+  auto control = chip.device.control();
+  EXPECT_EQ(steps(control.plan_read(op, {1, 0}, 4, all)), 2U);
+  EXPECT_EQ(steps(control.plan_write(op, {1, 0}, 4, all.first(8))), 2U + 2U);
+  EXPECT_EQ(steps(control.plan_write(op, {1, 0}, 4, all)), 2U + 4U);
+  mb4::Command command;
+  command.ids = 1;
+  EXPECT_EQ(steps(control.plan_command(op, command)), 4U);
 }
 
 // ---- Registers ----------------------------------------------------------------------------------

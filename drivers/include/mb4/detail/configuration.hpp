@@ -17,8 +17,9 @@ namespace mb4::detail {
 // What is written and compared goes in three parts. The last one is compared first, because VERSION
 // is in it: without a chip every register differs, and kVerify would say less. No other part
 // reaches the request of an access that begins meanwhile: a reading whose opcode was disturbed
-// writes there, and the parts before may be all 0. A witness comes last, because a MISO that is
-// stuck from some part on may look like the right registers, but like no status.
+// writes there, and the parts before may be all 0. A witness comes with the last part that is
+// compared, because a MISO that is stuck from some part on may look like the right registers, but
+// like no status; drops_words() needs it in the same step.
 inline constexpr std::uint8_t kPartBytes = Operation::kMaxFrameBytes - 2;
 inline constexpr std::uint8_t kLastPart = regs::kAddrRegadr;
 inline constexpr std::uint8_t kMiddlePart = kLastPart - kPartBytes;
@@ -114,6 +115,9 @@ inline void Procedures::add_compared(Operation& op, std::uint8_t address) {
   op.stage_ = kStart;
   op.address_ = address;
   add_read(op, address, part_bytes(address));
+  if (address == kMiddlePart) {
+    add_witness(op);
+  }
   if (address == kLastPart) {  // a bus that stores nothing is no chip
     mb4_plan_rx(&op.plan_, static_cast<std::uint8_t>(op.plan_.frames -
                                                      1))[2 + regs::kAddrVersion - kLastPart] = 0;
@@ -160,8 +164,6 @@ inline Result<void> Procedures::configuration_stage(ChipState& chip, Operation& 
       return take_identity(chip, op);
     case kImage:
       return take_image(chip, op);
-    case kWitness:
-      return take_configuration_end(chip, op);
     default:
       return take_compared(chip, op);
   }
@@ -198,7 +200,8 @@ inline Result<void> Procedures::take_image(ChipState& chip, Operation& op) {
 
 // A part was read.
 inline Result<void> Procedures::take_compared(ChipState& chip, Operation& op) {
-  const std::uint8_t* is = received(op) + 2;
+  const bool middle = op.address_ == kMiddlePart;
+  const std::uint8_t* is = received(op, middle ? 1 : 0) + 2;
   const bool last = op.address_ == kLastPart;
   if (last && !is_device(is[regs::kAddrVersion - kLastPart])) {
     return Error::kNotDetected;
@@ -208,13 +211,20 @@ inline Result<void> Procedures::take_compared(ChipState& chip, Operation& op) {
       at != kNowhere) {
     return ErrorInfo::at_register(Error::kVerify, static_cast<std::uint8_t>(at));
   }
-  if (op.address_ == kMiddlePart) {
-    add_witness(op);
-    op.stage_ = kWitness;
-  } else {
-    add_compared(op, last ? std::uint8_t{kImageFirst} : kMiddlePart);
+  if (middle) {
+    return take_configuration_end(chip, op);
   }
+  add_compared(op, last ? std::uint8_t{kImageFirst} : kMiddlePart);
   return {};
+}
+
+// SpiCheck::kFull, beside automatic frames. The words that wait may be foreign where no sensor is
+// one of slaves 5 to 8: the middle part is 0 then, so its reading may have been none. A disturbed
+// opcode (0x03 and 0x0B) puts its own bytes, and zeros, into SCDATA1 to 3. They may be old where a
+// disturbed release of the bank has swapped the banks: SWBANK.
+[[nodiscard]] inline bool drops_words(const ChipState& chip, const Status& status) {
+  const bool waits = (status.valid_flags() & unsigned{chip.sensor_flags}) != 0;
+  return (waits && chip.sensors < 0x10) || status.get<regs::SWBANK>() != 0;
 }
 
 // All is as it was written; the witness was read.
@@ -222,6 +232,9 @@ inline Result<void> Procedures::take_configuration_end(ChipState& chip, Operatio
   const Result<void> seen = take_status(op);
   if (seen && interface_changed(chip, op)) {
     return ErrorInfo::at_register(Error::kVerify, regs::kAddrIface);
+  }
+  if (seen && chip.automatic && chip.checks_all() && drops_words(chip, op.status_)) {
+    chip.watch.held = true;  // the next read drops them
   }
   return seen && op.purpose_ == Operation::Purpose::kConfigure ? at_rest(chip, op.status_) : seen;
 }

@@ -64,7 +64,6 @@ struct Procedures {
     // A configuration.
     kIdentity = kOwn,  // REVISION, VERSION
     kImage,            // all registers are written
-    kWitness,          // the status after what was read
     // A single frame.
     kWords = kOwn,  // its data
     kWordsAgain,    // its data once more
@@ -483,7 +482,8 @@ struct Procedures {
 
   // What was read, with a witness behind it, has come from the chip, and nothing but a read has
   // gone there. The frame of the witness is taken away. kNotDetected; kCorrupted, with
-  // begin_doubt().
+  // begin_doubt(). SWBANK: a disturbed release of the bank has swapped the banks, and the next read
+  // drops what waits.
   [[gnu::noinline]] static Result<void> take_witness(ChipState& chip, Operation& op) {
     const Result<void> seen = take_status(op);
     if (!seen) {
@@ -496,6 +496,9 @@ struct Procedures {
     const unsigned instruction = op.status_.instruction();
     const bool other = chip.automatic ? (instruction & regs::AGS::kMask) == 0
                                       : (instruction & ~unsigned{regs::SWBANK::kMask}) != 0;
+    if ((instruction & regs::SWBANK::kMask) != 0 && chip.automatic) {
+      chip.watch.held = true;
+    }
     const bool changed = other || interface_changed(chip, op);
     --op.made_;
     if (changed) {
