@@ -200,8 +200,9 @@ class Automatic {
   //
   // Not touched: kInvalidArgument (the slave is no enabled sensor), kWrongMode (automatic frames do
   // not run), kBusy as for poll(). kNoData: no frame with data of this slave has ended since the
-  // last call; or, with SpiCheck::kFull, a register access or a command has read zeros, and this
-  // call drops what waits. kCrc: one has, and its CRC was wrong; told once for each frame,
+  // last call; or, with SpiCheck::kFull, a call before has seen what may have changed the words
+  // that wait, mostly a register access or a command that has read zeros, and this call drops them.
+  // kCrc: one has, and its CRC was wrong; told once for each frame,
   // without a stored CRC as for poll(). kSlaveError: one has, and its nE is 0; Result::reading()
   // has it. kNoWord: as for poll(). kTimeout, kLineError, kCorrupted, kTransport, kNotDetected,
   // kBankSwitched as for poll().
@@ -290,7 +291,7 @@ class Automatic {
   }
 
   // Device::write_actuator() for a control loop that writes a word for each frame. Never waits;
-  // three transfers, seven or eight with SpiCheck::kFull. `word` has at most data_bits bits. The
+  // three transfers, seven with SpiCheck::kFull. `word` has at most data_bits bits. The
   // chip sends the word with the frame after the one that runs. Only one of the two banks gets the
   // word: if the caller writes no other word before the frame after that, that frame sends the
   // previous word.
@@ -302,9 +303,9 @@ class Automatic {
   }
 
   // Begins write_actuator() without a transfer, as plan_start(): one step of three frames, with
-  // SpiCheck::kFull three steps of one or two, between which a read of positions is kBusy: it would
-  // free the bank. Not touched: kWrongMode, kBusy, kInvalidArgument.
-  // operation.result(): kTransport, kNotDetected, kCorrupted.
+  // SpiCheck::kFull three steps of two or three, between which a read of positions is kBusy: it
+  // would free the bank. Not touched: kWrongMode, kBusy, kInvalidArgument. operation.result():
+  // kTransport, kNotDetected, kCorrupted.
   Result<void> plan_actuator(Operation& operation, std::uint8_t slave, std::uint64_t word) {
     return plan_word(operation, slave, word,
                      detail::Procedures::possible(operation, actuator_allowed()));

@@ -241,7 +241,8 @@ class Device {
   // Writes the word that the chip sends to the actuator `slave` (1..8) with each frame, from the
   // next frame on. `word` has at most data_bits bits; the chip adds stop bit and CRC.
   //
-  // Transfers; SpiCheck::kFull reads back each write by one more:
+  // Transfers; SpiCheck::kFull reads back each write by one more, looks at the status behind it and
+  // behind 0x07, and reads the word twice where it looks for the other bank:
   //   without automatic frames  0x02, 0x07, 0x02, 0x07; with single_bank only 0x02
   //   with automatic frames     0x07, 0x02, 0x07 for one bank; 0x03 and 0x05 until the end of a
   //                             frame has switched the banks; 0x07, 0x02, 0x07 for the other bank;

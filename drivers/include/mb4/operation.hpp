@@ -103,7 +103,6 @@ class Operation : public Steps {
   bool restarts_ = false;         // an access: automatic frames start before it
   bool init_unseen_ = false;      // INIT may be lost
   bool both_banks_ = false;       // an actuator: the word is for both
-  bool differs_ = false;          // an actuator: the last reading was another word
   Result<void> result_{};
   Result<void> cause_{};                // is the result when the frames planned now are made
   const std::uint8_t* data_ = nullptr;  // to write, the caller's

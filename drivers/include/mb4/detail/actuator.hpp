@@ -49,9 +49,11 @@ inline Result<void> Procedures::plan_actuator(ChipState& chip, Operation& op, st
   begin(chip, op, chip.automatic ? held_step : switched_step);
   op.request_ = bytes;
   op.count_ = data_bytes(config);
+  if (chip.automatic && chip.checks_all()) {
+    add_mark(chip, op);
+  }
   op.address_ = regs::scdata_address(slave);
   op.both_banks_ = both_banks;
-  op.differs_ = false;
   op.words_ = 0;
   if (chip.automatic) {
     add_held(chip, op);
@@ -62,6 +64,35 @@ inline Result<void> Procedures::plan_actuator(ChipState& chip, Operation& op, st
   }
   chip.recover_first = chip.recover_first || !chip.automatic;
   return {};
+}
+
+// SpiCheck::kFull, beside automatic frames: a mark in the byte behind the word, which no frame
+// sends. Each call has another one, and it is not 0. So a write that has gone to the word of a
+// sensor (0x08 and 0x00 differ in one bit) does not read back right, although the memory held the
+// same word before. Neither does a reading that has become a write itself (0x03, 0x0B and 0x02).
+// The mark is no byte of the word: a write that has gone some bytes too far shows too. A word of
+// eight bytes leaves no room for a mark: drop_beside().
+inline void Procedures::add_mark(ChipState& chip, Operation& op) {
+  if (op.count_ == op.request_.size()) {
+    return;
+  }
+  std::uint8_t mark = static_cast<std::uint8_t>(chip.mark + 1U);
+  for (std::size_t i = 0; i < op.request_.size(); ++i) {
+    if (op.request_[i] == mark) {  // the bytes behind the word are 0
+      ++mark;
+      i = 0;
+    }
+  }
+  chip.mark = mark;
+  op.request_[op.count_] = mark;
+  ++op.count_;
+}
+
+// Nothing proves a word without a mark. Words of sensors that wait now may be foreign: the next
+// read drops them.
+inline void Procedures::drop_beside(ChipState& chip, const Operation& op) {
+  const bool waits = (op.status_.valid_flags() & unsigned{chip.sensor_flags}) != 0;
+  chip.watch.held = chip.watch.held || (waits && op.count_ == op.request_.size());
 }
 
 inline void Procedures::add_word(ChipState& chip, Operation& op, std::uint32_t stage) {
@@ -143,15 +174,10 @@ inline void Procedures::add_held(ChipState& chip, Operation& op) {
   }
 }
 
-// What has waited in a bank that an earlier call could not release is old. No bank was switched
-// meanwhile, so nobody could see frames.
 inline void Procedures::add_release(ChipState& chip, Operation& op, const Result<void>& cause) {
   op.stage_ = kStopped;
   op.cause_ = cause;
   add_instruction(op, regs::AGS::encode<1>());
-  if (chip.watch.held) {
-    mb4_cyclic_add_clear(&op.plan_, chip.sensor_flags, 4);
-  }
   if (chip.checks_all()) {
     mb4_cyclic_add_status(&op.plan_);
   }
@@ -163,7 +189,9 @@ inline Result<void> Procedures::held_step(ChipState& chip, Operation& op, std::u
       take_hold(chip, op);
       return {};
     case kWord:
-      add_release(chip, op, take_write(chip, op));
+      op.cause_ = take_write(chip, op);
+      drop_beside(chip, op);
+      add_release(chip, op, op.cause_);
       return {};
     case kOtherWord:
       return take_other_word(chip, op, now_us);
@@ -189,27 +217,33 @@ inline void Procedures::take_hold(ChipState& chip, Operation& op) {
   }
 }
 
-// The word was read again: has the end of a frame switched the banks?
+// The word was read again: has the end of a frame switched the banks? With SpiCheck::kFull one
+// reading that differs from the other is not the other bank. A disturbed one may have been a write
+// to the word of a sensor: the next read drops what waits.
 inline Result<void> Procedures::take_other_word(ChipState& chip, Operation& op,
                                                 std::uint32_t now_us) {
-  const std::uint8_t* is = received(op, 1) + 2;
-  const Result<void> seen = take_status(op);
+  const bool full = chip.checks_all();
+  const Result<void> seen = full ? take_witness(chip, op) : take_status(op);
   if (!seen) {
     return seen;
   }
-  const bool differs = !bytes_equal(is, op.request_.data(), static_cast<unsigned>(op.count_));
-  // One disturbed reading is not the other bank.
-  const bool again = differs && chip.checks_all() && !op.differs_;
-  op.differs_ = false;
-  if (differs && !again) {
+  bool again = false;
+  if (full) {
+    drop_beside(chip, op);
+    again = !readback_equals(op);
+    chip.watch.held = chip.watch.held || again;
+  }
+  const std::uint8_t* is = received(op, full ? 0 : 1) + 2;
+  if (!again && !bytes_equal(is, op.request_.data(), static_cast<unsigned>(op.count_))) {
     if (op.words_ >= kMostWords) {
       return Error::kCorrupted;
     }
     ++op.words_;
     add_held(chip, op);
+  } else if (again && ++op.failures_ >= kMostFailures) {
+    return Error::kCorrupted;
   } else if (again || !op.limit_.over) {
-    op.differs_ = differs;
-    add_other_word(op, now_us);
+    add_other_word(chip, op, now_us);
   }  // otherwise both banks hold the word
   return {};
 }
@@ -228,15 +262,12 @@ inline Result<void> Procedures::take_release(ChipState& chip, Operation& op, std
     // A disturbed byte of 0xF4 may have started an access.
     chip.control.stray = chip.control.stray || (chip.checks_all() && !op.cause_);
   }
-  if (done && chip.watch.held) {
-    chip.watch.news_us = now_us;
-  }
-  // Words that have waited since a failed proof were dropped by one 0x02; the next read does it
-  // twice.
-  chip.watch.held = !done || (chip.watch.held && chip.proves_release());
+  // What a failed call has done to the banks nobody knows: SWBANK in the byte that holds the bank
+  // swaps them, and the one that releases it swaps them back.
+  chip.watch.held = chip.watch.held || !op.cause_ || !done;
   if (op.cause_ && op.both_banks_) {
     op.limit_.begin(now_us, chip.frame_us + chip.pitch_us);
-    add_other_word(op, now_us);
+    add_other_word(chip, op, now_us);
   }
   return op.cause_;
 }
@@ -245,11 +276,16 @@ inline Result<void> Procedures::take_release(ChipState& chip, Operation& op, std
 // frame may have ended between the reading and HOLDBANK, and the word is in the first bank again.
 // If no reading differs, both banks hold the word. The status makes the two frames as long as the
 // count of polls expects.
-inline void Procedures::add_other_word(Operation& op, std::uint32_t now_us) {
+inline void Procedures::add_other_word(const ChipState& chip, Operation& op, std::uint32_t now_us) {
   op.limit_.note(now_us);
   op.stage_ = kOtherWord;
   add_read(op, op.address_, op.count_);
-  mb4_cyclic_add_status(&op.plan_);
+  if (chip.checks_all()) {
+    add_read(op, op.address_, op.count_);
+    add_witness(op);
+  } else {
+    mb4_cyclic_add_status(&op.plan_);
+  }
 }
 
 }  // namespace mb4::detail

@@ -91,6 +91,7 @@ struct ChipState {
   std::array<mb4_word, kSlaves> words{};  // how the data of each of `sensors` is read, in order
   RegisterImage image{};                  // 0xC0..0xF2 as configure() has written them
   std::uint8_t interface_byte = 0;        // 0xF5, the same
+  std::uint8_t mark = 0;                  // behind the last word of an actuator: add_mark()
   std::uint32_t step_us;                  // of the clock
   std::uint8_t count = 0;                 // of `words`
   std::uint8_t needs = 0;                 // MB4_WITH_..., for any slave

@@ -673,7 +673,9 @@ struct Procedures {
   static Result<void> take_instruction(ChipState& chip, Operation& op, std::uint8_t want);
   static void add_held(ChipState& chip, Operation& op);
   static void add_release(ChipState& chip, Operation& op, const Result<void>& cause);
-  static void add_other_word(Operation& op, std::uint32_t now_us);
+  static void add_other_word(const ChipState& chip, Operation& op, std::uint32_t now_us);
+  static void add_mark(ChipState& chip, Operation& op);
+  static void drop_beside(ChipState& chip, const Operation& op);
   [[gnu::always_inline]] static void take_hold(ChipState& chip, Operation& op);
   [[gnu::always_inline]] static Result<void> take_other_word(ChipState& chip, Operation& op,
                                                              std::uint32_t now_us);
