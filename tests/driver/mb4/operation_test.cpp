@@ -2151,6 +2151,28 @@ TEST_F(Access, ActuatorsRelease_IsProven) {
   EXPECT_EQ(device.automatic().poll(frame).error(), Error::kTransport);
 }
 
+// The mark is not 0, as the bytes behind a shorter word are, and no byte of the word: a write that
+// has gone some bytes too far must not look right.
+TEST_F(Access, ActuatorsMark_IsAnotherOneInEachCallAndNoByteOfTheWord) {
+  start_actuator(mb4::SpiCheck::kFull);
+  const Bytes held = status(0xFB, 0x00, 0x41);
+  std::uint8_t before = 0;
+  for (unsigned i = 0; i < 600; ++i) {
+    ASSERT_TRUE(device.automatic().plan_actuator(op, 1, mb4test::kRaw).ok());
+    EXPECT_FALSE(step({{0x07, 0x41}, kReadStatus}, {held}));
+    const std::uint8_t mark = op.tx(0)[6];
+    EXPECT_FALSE(step(
+        {{0x02, 0x00, 0xBF, 0x37, 0xAF, 0x0A, mark}, {0x03, 0x00, 0, 0, 0, 0, 0}, kReadWitness},
+        {{0, 0, 0xBF, 0x37, 0xAF, 0x0A, mark}, witness(held)}));
+    EXPECT_TRUE(step({kAgs, kReadStatus}, {kProven}));
+    ends_with(Error::kNone);
+    for (const unsigned other : {0x00U, 0xBFU, 0x37U, 0xAFU, 0x0AU, unsigned{before}}) {
+      EXPECT_NE(mark, other) << i;
+    }
+    before = mark;
+  }
+}
+
 // An actuator's word for both banks, at SpiCheck::kFull.
 class BothBanks : public Access {
  protected:
