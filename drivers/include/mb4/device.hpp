@@ -109,17 +109,20 @@ class Device {
 
   // Reads the configuration back and compares it as configure() does. It finds a configuration that
   // a disturbed transfer or a supply dip has changed. Four transfers, three of 18 to 20 bytes (0x03
-  // from 0xE2, 0xC0 and 0xD0) and a status with 0xF5; it changes nothing in the chip. The request
-  // of a control communication that runs is not compared. kNotConfigured (not touched), kTransport.
-  // kNotDetected, kVerify: the Device then counts as not configured; call configure() again. Where
-  // reads are kBusy because an operation with SpiCheck::kFull was given up, it ends this; then
-  // kTransport means not configured too, and kCorrupted that automatic frames have stopped.
+  // from 0xE2, 0xC0 and 0xD0) and a status with 0xF5; it changes nothing in the chip. Beside
+  // automatic frames SpiCheck::kFull reads SCDATA1 before the status: the third reading may have
+  // become a write there. The request of a control communication that runs is not compared.
+  // kNotConfigured (not touched), kTransport. kNotDetected, kVerify: the Device then counts as not
+  // configured; call configure() again. Where reads are kBusy because an operation with
+  // SpiCheck::kFull was given up, it ends this; then kTransport means not configured too, and
+  // kCorrupted that automatic frames have stopped.
   Result<void> verify() { return detail::Blocking::verify(chip_); }
 
   // Begins verify() without a transfer: the caller makes the frames of `operation` and calls
-  // finish() until it returns true. Three steps, of four frames, as verify(), which may stand
-  // beside reads of positions and a control communication that runs. kNotConfigured (not touched).
-  // operation.result(): kTransport, kNotDetected, kVerify as of verify(). Wrong use: operation.hpp.
+  // finish() until it returns true. Three steps, the last one of two or three frames, which may
+  // stand beside reads of positions and a control communication that runs. kNotConfigured (not
+  // touched). operation.result(): kTransport, kNotDetected, kVerify as of verify(). Wrong use:
+  // operation.hpp.
   Result<void> plan_verify(Operation& operation) {
     const Result<void> allowed = detail::Procedures::possible(
         operation, chip_.configured ? Error::kNone : Error::kNotConfigured);

@@ -542,7 +542,8 @@ TEST_F(RegistersAgs, DisturbedFill_IsFollowedByARestart) {
   bus.expect_read({0x03, 0xC0, 0x00}, {0, 0, 0x5B});
   bus.expect_read(mb4test::kReadWitness, {0, 0xFB, 0, 0, 0, 0x01, 0});
   mb4test::expect_rest_at_full(bus);  // the bytes may be there; the configuration is compared
-  for (const auto& one : mb4test::comparison(answer, {0, 0xFB, 0, 0, 0, 0x01})) {
+  const Bytes word{0x34, 0x12, 0, 0, 0, 0, 0, 0x2A};  // in SCDATA1
+  for (const auto& one : mb4test::comparison(answer, {0, 0xFB, 0, 0, 0, 0x01}, word)) {
     bus.expect_read(one.mosi, one.miso);
   }
   EXPECT_EQ(device.control().write_registers({1, 0}, 0x60, data).error(), Error::kCorrupted);

@@ -69,7 +69,9 @@ inline constexpr unsigned kAll = 0;
 // The transfers that compare the configuration: `answer`, 0xC0..0xF5, in three parts, and `end`, a
 // status, with 0xF5, which comes in one step with the last part. Opcode 0x03 (page 18): data
 // follows the address without a dummy byte.
-inline std::vector<Transfer> comparison(const Bytes& answer, const Bytes& end) {
+// `look`: SCDATA1, which comes before the status, at SpiCheck::kFull beside automatic frames.
+inline std::vector<Transfer> comparison(const Bytes& answer, const Bytes& end,
+                                        const Bytes& look = {}) {
   std::vector<Transfer> all;
   for (const auto& [from, size] : {std::pair{0x22, 18}, {0x00, 16}, {0x10, 18}}) {
     const auto begin = answer.begin() + from;
@@ -77,12 +79,13 @@ inline std::vector<Transfer> comparison(const Bytes& answer, const Bytes& end) {
                          zeros(static_cast<std::size_t>(size))}),
                    join({zeros(2), Bytes(begin, begin + size)})});
   }
+  if (!look.empty()) all.push_back({join({{0x09}, Bytes(8, 0x5A)}), join({{0}, look})});
   all.push_back({{0x05, 0, 0, 0, 0, 0, 0}, join({end, {answer.back()}})});
   return all;
 }
 
 inline std::vector<std::vector<Transfer>> in_steps(const std::vector<Transfer>& all) {
-  return {{all[0]}, {all[1]}, {all[2], all[3]}};
+  return {{all[0]}, {all[1]}, {all.begin() + 2, all.end()}};
 }
 
 // The transfers that write `image`, 0xC0..0xEF, and compare it with `answer`, 0xC0..0xF5, in three

@@ -209,11 +209,16 @@ class OperationTest : public testing::Test {
   // At kFull, after something has read back differently: the operation compares the configuration,
   // which is encoder26() but for `other`; in a blocking call.
   using Others = std::vector<std::pair<std::uint8_t, std::uint8_t>>;
-  static std::vector<mb4test::Transfer> comparison(const Bytes& end, const Others& other) {
+  std::vector<mb4test::Transfer> comparison(const Bytes& end, const Others& other) {
+    return comparison(end, other, device.automatic().running());
+  }
+  static std::vector<mb4test::Transfer> comparison(const Bytes& end, const Others& other,
+                                                   bool automatic) {
+    const Bytes word{0x34, 0x12, 0, 0, 0, 0, 0, 0x2A};  // in SCDATA1
     Bytes answer = mb4test::read_back();
     answer[0xE7 - 0xC0] = 0x00;  // NOCRC = 0
     for (const auto& [address, value] : other) answer[address - 0xC0U] = value;
-    return mb4test::comparison(answer, end);
+    return mb4test::comparison(answer, end, automatic ? word : Bytes{});
   }
   bool step(const std::vector<mb4test::Transfer>& all) {
     std::vector<Bytes> frames;
@@ -232,8 +237,9 @@ class OperationTest : public testing::Test {
     }
     return ended;
   }
+  // In a call that has stopped the frames.
   void expect_compared(const Bytes& end) {
-    for (const auto& one : comparison(end, {})) bus.expect_read(one.mosi, one.miso);
+    for (const auto& one : comparison(end, {}, false)) bus.expect_read(one.mosi, one.miso);
   }
   // The request at rest is away: BREAK sends it before the frames start again.
   void restart_after_rest() {

@@ -14,6 +14,9 @@
 
 namespace mb4::detail {
 
+// Frames of the step of the middle part with a look at SCDATA1.
+inline constexpr std::uint32_t kMadeWithLook = 3;
+
 // What is written and compared goes in three parts. The last one is compared first, because VERSION
 // is in it: without a chip every register differs, and kVerify would say less. No other part
 // reaches the request of an access that begins meanwhile: a reading whose opcode was disturbed
@@ -35,7 +38,7 @@ inline void Procedures::plan_verify(ChipState& chip, Operation& op) {
   begin(chip, op, chip.in_doubt() ? proof_step : configuration_step);
   op.purpose_ = Operation::Purpose::kCompare;
   op.request_away_ = chip.request_is_away();
-  add_compared(op, kLastPart);
+  add_compared(chip, op, kLastPart);
 }
 
 // An operation has ended in doubt: the configuration is compared, and a status says whether
@@ -111,11 +114,14 @@ inline void Procedures::add_image(ChipState& chip, Operation& op) {
   }
 }
 
-inline void Procedures::add_compared(Operation& op, std::uint8_t address) {
+inline void Procedures::add_compared(const ChipState& chip, Operation& op, std::uint8_t address) {
   op.stage_ = kStart;
   op.address_ = address;
   add_read(op, address, part_bytes(address));
   if (address == kMiddlePart) {
+    if (chip.automatic && chip.checks_all()) {
+      mb4_plan_add(&op.plan_, 1 + regs::kScdataStride, MB4_CYCLIC_READ0, 0x5A, 0x5A);
+    }
     add_witness(op);
   }
   if (address == kLastPart) {  // a bus that stores nothing is no chip
@@ -194,14 +200,14 @@ inline Result<void> Procedures::take_image(ChipState& chip, Operation& op) {
   op.plan_.pause_us =
       op.purpose_ == Operation::Purpose::kConfigure ? op.limit_.timeout_us : std::uint32_t{0};
   add_bytes(op, kLastPart, chip.image.data() + kBefore, kImageBytes - kBefore);
-  add_compared(op, kLastPart);
+  add_compared(chip, op, kLastPart);
   return {};
 }
 
 // A part was read.
 inline Result<void> Procedures::take_compared(ChipState& chip, Operation& op) {
   const bool middle = op.address_ == kMiddlePart;
-  const std::uint8_t* is = received(op, middle ? 1 : 0) + 2;
+  const std::uint8_t* is = received(op, middle ? op.made_ - 1U : 0) + 2;
   const bool last = op.address_ == kLastPart;
   if (last && !is_device(is[regs::kAddrVersion - kLastPart])) {
     return Error::kNotDetected;
@@ -214,17 +220,20 @@ inline Result<void> Procedures::take_compared(ChipState& chip, Operation& op) {
   if (middle) {
     return take_configuration_end(chip, op);
   }
-  add_compared(op, last ? std::uint8_t{kImageFirst} : kMiddlePart);
+  add_compared(chip, op, last ? std::uint8_t{kImageFirst} : kMiddlePart);
   return {};
 }
 
-// SpiCheck::kFull, beside automatic frames. The words that wait may be foreign where no sensor is
-// one of slaves 5 to 8: the middle part is 0 then, so its reading may have been none. A disturbed
-// opcode (0x03 and 0x0B) puts its own bytes, and zeros, into SCDATA1 to 3. They may be old where a
-// disturbed release of the bank has swapped the banks: SWBANK.
-[[nodiscard]] inline bool drops_words(const ChipState& chip, const Status& status) {
-  const bool waits = (status.valid_flags() & unsigned{chip.sensor_flags}) != 0;
-  return (waits && chip.sensors < 0x10) || status.get<regs::SWBANK>() != 0;
+// Beside automatic frames SCDATA1 was read between the middle part and the witness. Words that wait
+// may be foreign: where slaves 5 to 8 are not used the middle part is 0, so its reading may have
+// been none. A disturbed opcode (0x03 and 0x0B) puts 0xD0 and zeros into SCDATA1 to 3. The look at
+// SCDATA1 may be a write, too (0x09 and 0x0B); then it reads 0. They may be old where a disturbed
+// release of the bank has swapped the banks: SWBANK.
+inline bool Procedures::drops_words(const ChipState& chip, const Operation& op) {
+  const std::uint8_t* fillers = mb4_plan_tx(&op.plan_, 0) + 2;
+  const bool waits = (op.status_.valid_flags() & unsigned{chip.sensor_flags}) != 0;
+  return (waits && bytes_equal(received(op, 1) + 2, fillers, regs::kScdataStride - 1)) ||
+         op.status_.get<regs::SWBANK>() != 0;
 }
 
 // All is as it was written; the witness was read.
@@ -233,7 +242,7 @@ inline Result<void> Procedures::take_configuration_end(ChipState& chip, Operatio
   if (seen && interface_changed(chip, op)) {
     return ErrorInfo::at_register(Error::kVerify, regs::kAddrIface);
   }
-  if (seen && chip.automatic && chip.checks_all() && drops_words(chip, op.status_)) {
+  if (seen && op.made_ == kMadeWithLook && drops_words(chip, op)) {
     chip.watch.held = true;  // the next read drops them
   }
   return seen && op.purpose_ == Operation::Purpose::kConfigure ? at_rest(chip, op.status_) : seen;

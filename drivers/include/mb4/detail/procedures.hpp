@@ -626,7 +626,8 @@ struct Procedures {
   // Each stage has a function. One that is called from one place only becomes part of its caller:
   // this takes less flash and less stack on small cores. Parts of configuration.hpp,
   static void add_image(ChipState& chip, Operation& op);
-  static void add_compared(Operation& op, std::uint8_t address);
+  static void add_compared(const ChipState& chip, Operation& op, std::uint8_t address);
+  static bool drops_words(const ChipState& chip, const Operation& op);
   static void plan_proof(ChipState& chip, Operation& op, const Result<void>& cause);
   [[gnu::always_inline]] static Result<void> configuration_stage(ChipState& chip, Operation& op);
   [[gnu::always_inline]] static Result<void> take_identity(ChipState& chip, Operation& op);
