@@ -218,8 +218,8 @@ inline void Procedures::take_hold(ChipState& chip, Operation& op) {
 }
 
 // The word was read again: has the end of a frame switched the banks? With SpiCheck::kFull one
-// reading that differs from the other is not the other bank. A disturbed one may have been a write
-// to the word of a sensor: the next read drops what waits.
+// reading that differs from the other is not the other bank. If it is 0 it may have been a write to
+// the word of a sensor: the next read drops what waits.
 inline Result<void> Procedures::take_other_word(ChipState& chip, Operation& op,
                                                 std::uint32_t now_us) {
   const bool full = chip.checks_all();
@@ -231,7 +231,12 @@ inline Result<void> Procedures::take_other_word(ChipState& chip, Operation& op,
   if (full) {
     drop_beside(chip, op);
     again = !readback_equals(op);
-    chip.watch.held = chip.watch.held || again;
+    const std::uint8_t* zeros = mb4_plan_tx(&op.plan_, 0) + 2;
+    const unsigned size = static_cast<unsigned>(op.count_);
+    if (again && (bytes_equal(received(op) + 2, zeros, size) ||
+                  bytes_equal(received(op, 1) + 2, zeros, size))) {
+      chip.watch.held = true;
+    }
   }
   const std::uint8_t* is = received(op, full ? 0 : 1) + 2;
   if (!again && !bytes_equal(is, op.request_.data(), static_cast<unsigned>(op.count_))) {
