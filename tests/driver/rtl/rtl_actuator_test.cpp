@@ -252,6 +252,8 @@ TEST(DriverActuatorErrors, EachTransferDisturbed_IsAnErrorOrTheWordArrives) {
         // The next one works, and so do positions.
         EXPECT_TRUE(one.chip.device.write_actuator(1, 0x123).ok());
         Frame frame;
+        // Behind a call that has failed the words that wait are dropped.
+        if (automatic) static_cast<void>(one.chip.device.automatic().next(frame));
         const mb4::Result<void> read =
             automatic ? one.chip.device.automatic().next(frame) : one.chip.device.read_all(frame);
         EXPECT_TRUE(read.ok() && frame[2].ok())
