@@ -27,10 +27,12 @@
 // Access = 1: the frame carries the CDM bit cdm_i[CDS], taken when it begins. MA shows it inverted
 // until the timeout has ended.
 //
-// FrameSampler = 1: biss_frame_sampler finds the start bit and takes the bits of the word, once the
-// last one has come; biss_delay_sampler finds the acknowledge, takes CDS and ends MA. It may see
-// the start bit one bit early, so MA has one rising edge more. Outside of 10 to 20 clocks a bit all
-// is as with FrameSampler = 0. eye_o is of the last frame that came to its end this way, or 0.
+// FrameSampler = 1: biss_frame_sampler takes the bits of the word, once the last one has come;
+// biss_delay_sampler finds the acknowledge, takes CDS and ends MA. It may see the start bit one bit
+// early, so MA has one rising edge more. If it has missed the start bit that biss_frame_sampler has
+// seen, it goes on a bit later, and MA has two more. A start bit that biss_frame_sampler has not
+// seen with CDS was a pulse: the frame ends as one without a start bit. Outside of 10 to 20 clocks
+// a bit all is as with FrameSampler = 0. eye_o is of the last frame that came to its end this way.
 //
 // Misuse: start_i while busy_o is 1 starts no frame; word_o.good and word_o.crc_bad go to 0.
 // frame_i must not change while frame_o is 1, nor rule_i while busy_o is 1.
@@ -123,6 +125,7 @@ module axi_channel #(
   logic        framed;         // biss_frame_sampler takes the word
   logic        median;
   logic        started;        // with bit_valid: the start bit has come
+  logic        lost;           // what was taken for it was a pulse
   logic        word_valid, word_bit;
   logic [9:0]  delay;
   logic        rise, ma_clocks, ma, unused_released, unused_release;
@@ -235,7 +238,8 @@ module axi_channel #(
     assign framed     = usable;
     assign median     = usable_q;
     assign taken      = usable_q && (state_q == DATA || state_q == CRC);
-    assign started    = usable_q ? rose : sl_bit;
+    assign started    = sl_bit || (usable_q && rose);
+    assign lost       = usable_q && state_q == CDS && bit_valid && !rose;
     assign word_valid = taken ? frame_valid : bit_valid;
     assign word_bit   = taken ? frame_bit : sl_bit;
     assign shown      = ended_q && eye_valid && enabled_i && !clear_i;
@@ -260,6 +264,7 @@ module axi_channel #(
     assign framed     = 1'b0;
     assign median     = 1'b0;
     assign started    = sl_bit;
+    assign lost       = 1'b0;
     assign word_valid = bit_valid;
     assign word_bit   = sl_bit;
     assign eye_o      = '0;
@@ -299,7 +304,7 @@ module axi_channel #(
   assign no_ack      = state_q == ACK && !ack && late;
   assign no_start    = state_q == START && bit_valid && !started && count_q == START_LAST;
   assign breaks      = running && (clear_i || !enabled_i);
-  assign fail        = no_ack || no_start || breaks;
+  assign fail        = no_ack || no_start || (FrameSampler && lost) || breaks;
   assign limit       = count_q == rule_i.timeout_last[CountW-1:0];
   assign crc_last    = AnyCrc ? rule_i.crc_last : 4'd5;
   assign patient     = rule_i.fixed;

@@ -6,8 +6,8 @@
 // of index_i.
 //
 // Clock domain: core. An access never waits. Reading EYE begins the smallest width anew, with the
-// last frame. A frame without a width, a disabled channel and a soft reset begin it anew too.
-// EYE_ALARM looks at each frame once, two clocks after its end; alarm_o is high for this clock. A
+// last frame if that has a width; so does a soft reset. A frame without a width leaves it, and EYE
+// shows it again behind the next one that has one. EYE_ALARM looks at each frame once, two clocks after its end; alarm_o is high for this clock. A
 // frame without a width sets no alarm.
 //
 // Misuse: an index beyond the last channel reads 0.
@@ -49,6 +49,7 @@ module axi_eye #(
   for (genvar i = 0; i < Channels; i++) begin : gen_channel
     logic       valid;
     logic [4:0] width;
+    logic       less;
     logic       ended_q;
     logic       alarm_q;
     logic [4:0] smallest_q;
@@ -64,16 +65,16 @@ module axi_eye #(
       end else begin
         ended_q <= events_i[i*axi_pkg::EVENT_W + axi_pkg::EVENT_ENDED];
         alarm_q <= !clear_i && (narrow[i] || (alarm_q && !(wr_alarm && bus_i.data[i])));
-        if (!valid)
-          smallest_q <= NONE;
-        else if ((rd_eye && index_i == 4'(i)) || width < smallest_q)
-          smallest_q <= width;
+        if (clear_i)                         smallest_q <= NONE;
+        else if (rd_eye && index_i == 4'(i)) smallest_q <= valid ? width : NONE;
+        else if (less)                       smallest_q <= width;
       end
     end
 
     assign narrow[i]          = ended_q && valid && width < limit_q;
     assign alarms[i]          = alarm_q;
-    assign smallests[i*5 +: 5] = smallest_q;
+    assign less                = valid && width < smallest_q;
+    assign smallests[i*5 +: 5] = less ? width : smallest_q;
   end
 
   always_comb begin

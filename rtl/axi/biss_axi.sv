@@ -95,7 +95,7 @@ module biss_axi #(
     $error("STREAM_DEPTH must be at least BISS_CHANNEL_WIDTH: a frame goes into the FIFO whole");
   end
   if (EXTRAS >= 1 << axi_pkg::EXTRAS_W) begin : gen_extras
-    $error("EXTRAS has 10 bits");
+    $error("EXTRAS has 11 bits");
   end
 `endif
 

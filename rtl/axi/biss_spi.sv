@@ -57,7 +57,7 @@ module biss_spi #(
     $error("BISS_CHANNEL_WIDTH is 1 to 4");
   end
   if (EXTRAS >= 1 << axi_pkg::EXTRAS_W) begin : gen_extras
-    $error("EXTRAS has 10 bits");
+    $error("EXTRAS has 11 bits");
   end
 `endif
 

@@ -38,7 +38,7 @@ WRONG = [
     ({"STREAM_MODE": 1, "BISS_CHANNEL_WIDTH": 5, "STREAM_DEPTH": 4},
      "STREAM_DEPTH must be at least BISS_CHANNEL_WIDTH"),
     ({"STREAM_MODE": 1, "STREAM_DEPTH": 12}, "Depth is a power of 2"),
-    ({"EXTRAS": 1024}, "EXTRAS has 10 bits"),
+    ({"EXTRAS": 2048}, "EXTRAS has 11 bits"),
     ({"BISS_CHANNEL_WIDTH": 17}, "Channels is 1 to 16"),
     ({"TIMEOUT_LIMIT": 0}, "TimeoutLimit is 1 to 1048575"),
     ({"TIMEOUT_LIMIT": 1_048_576}, "TimeoutLimit is 1 to 1048575"),

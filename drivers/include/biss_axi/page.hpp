@@ -46,15 +46,19 @@ struct LastWord {
 // The eye of a line in the last frame of its channel: clocks of a bit between the latest edge and
 // the earliest one of the next bit. Source: regmap/axi.rdl, EYE.
 struct Eye {
-  // The numbers are those of the last frame; else they are 0: it did not end, or `used` is false.
+  // The numbers are those of the last frame, whether its CRC fits or not; else they are 0: it did
+  // not come to its end, or its MA divider was out of reach.
   bool valid = false;
-  // The words are taken by frames at this MA divider (10 to 20 clocks a bit).
+  // The words are taken by frames at the MA divider of the read that runs or of the last one (10 to
+  // 20 clocks a bit).
   bool used = false;
-  std::uint8_t width = 0;     // clocks; a bit has 2 * divider clocks
-  std::uint8_t smallest = 0;  // the smallest width since eye() was called for this channel
-  std::uint8_t point = 0;     // sampling point: clocks behind the rise of the start bit
-  std::uint8_t before = 0;    // clocks that edges could have come later
-  std::uint8_t after = 0;     // clocks that those of the next bit could have come earlier
+  std::uint8_t width = 0;  // clocks; a bit has 2 * divider clocks
+  // The smallest width since eye() was called for this channel, the last frame of then included. It
+  // counts clocks: call eye() once behind a change of the divider.
+  std::uint8_t smallest = 0;
+  std::uint8_t point = 0;   // sampling point: clocks behind the rise of the start bit
+  std::uint8_t before = 0;  // clocks that edges could have come later
+  std::uint8_t after = 0;   // clocks that those of the next bit could have come earlier
 };
 
 enum class AccessState : std::uint8_t {

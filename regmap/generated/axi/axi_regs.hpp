@@ -432,17 +432,19 @@ using LAST_GOOD = Field<0xA4, 0, 1, Access::kReadOnly, 0>;
 using LAST_POSITION = Field<0xA8, 0, 32, Access::kReadOnly, 0>;
 // Bits 63 to 32 of the position, as copied with LAST_STATUS. Extras LAST and WIDE.
 using LAST_POSITION_HIGH = Field<0xAC, 0, 32, Access::kReadOnly, 0>;
-// The numbers are those of the last frame. 0, and no numbers: it did not end, its MA divider is out
-// of reach, or there was none.
+// The numbers are those of the last frame. 0, and no numbers: it did not come to its end, its MA
+// divider is out of reach, or there was none.
 using EYE_VALID = Field<0xB0, 31, 1, Access::kReadOnly, 0>;
-// The MA divider of the last read is 5 to 10, so the words are taken by frames. 0: by the
-// acknowledge, as without the extra.
+// The MA divider of the read that runs, or of the last one, is 5 to 10, so the words are taken by
+// frames. 0: by the acknowledge, as without the extra.
 using EYE_USED = Field<0xB0, 30, 1, Access::kReadOnly, 0>;
 // Clocks by which edges could have come earlier than the earliest one, up to the sampling point.
 using EYE_AFTER = Field<0xB0, 25, 4, Access::kReadOnly, 0>;
 // Clocks by which edges could have come later than the latest one, up to the sampling point.
 using EYE_BEFORE = Field<0xB0, 21, 4, Access::kReadOnly, 0>;
-// The smallest EYE_WIDTH since the last time this register was read, and of the last frame then.
+// The smallest EYE_WIDTH since this register was read, the last frame of then included. Frames
+// without numbers do not count, and a soft reset begins anew. It counts clocks: read it once behind
+// a change of MA_DIVIDER.
 using EYE_SMALLEST = Field<0xB0, 16, 5, Access::kReadOnly, 0>;
 // Place of the sampling point: clocks behind the one in which the start bit rose.
 using EYE_POINT = Field<0xB0, 8, 5, Access::kReadOnly, 0>;

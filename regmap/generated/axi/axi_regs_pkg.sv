@@ -775,16 +775,16 @@ package axi_regs_pkg;
   localparam logic [31:0] LAST_POSITION_HIGH_MASK = 32'hFFFFFFFF;
   localparam logic [31:0] LAST_POSITION_HIGH_RESET = 32'd0;
 
-  // The numbers are those of the last frame. 0, and no numbers: it did not end, its MA divider is
-  // out of reach, or there was none.
+  // The numbers are those of the last frame. 0, and no numbers: it did not come to its end, its MA
+  // divider is out of reach, or there was none.
   localparam logic [7:0] EYE_VALID_ADDR = 8'hB0;
   localparam logic [31:0] EYE_VALID_LSB = 32'd31;
   localparam logic [31:0] EYE_VALID_W = 32'd1;
   localparam logic [31:0] EYE_VALID_MASK = 32'h80000000;
   localparam logic [0:0] EYE_VALID_RESET = 1'd0;
 
-  // The MA divider of the last read is 5 to 10, so the words are taken by frames. 0: by the
-  // acknowledge, as without the extra.
+  // The MA divider of the read that runs, or of the last one, is 5 to 10, so the words are taken by
+  // frames. 0: by the acknowledge, as without the extra.
   localparam logic [7:0] EYE_USED_ADDR = 8'hB0;
   localparam logic [31:0] EYE_USED_LSB = 32'd30;
   localparam logic [31:0] EYE_USED_W = 32'd1;
@@ -805,7 +805,9 @@ package axi_regs_pkg;
   localparam logic [31:0] EYE_BEFORE_MASK = 32'h01E00000;
   localparam logic [3:0] EYE_BEFORE_RESET = 4'd0;
 
-  // The smallest EYE_WIDTH since the last time this register was read, and of the last frame then.
+  // The smallest EYE_WIDTH since this register was read, the last frame of then included. Frames
+  // without numbers do not count, and a soft reset begins anew. It counts clocks: read it once
+  // behind a change of MA_DIVIDER.
   localparam logic [7:0] EYE_SMALLEST_ADDR = 8'hB0;
   localparam logic [31:0] EYE_SMALLEST_LSB = 32'd16;
   localparam logic [31:0] EYE_SMALLEST_W = 32'd5;

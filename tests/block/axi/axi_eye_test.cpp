@@ -75,7 +75,15 @@ TEST(AxiEyeBlock, FramesAtRandom_AreShownWithTheirSmallestAndAlarms) {
         const bool below = one.width < limit;
         EXPECT_EQ(m.alarm_o, below ? 1 : 0);
         pulses += m.alarm_o;
-        block.clock();
+        if (dice.below(3) == 0) {  // a read in the clock in which the numbers change
+          m.index_i = static_cast<std::uint8_t>(c);
+          Shown now = one;
+          now.smallest = std::min(one.smallest, one.width);
+          EXPECT_EQ(mb4test::read_page(block, reg::kAddrEye), now.word());
+          one.smallest = one.width;
+        } else {
+          block.clock();
+        }
         m.eval();
         EXPECT_EQ(m.alarm_o, 0);
         one.smallest = std::min(one.smallest, one.width);
@@ -87,14 +95,14 @@ TEST(AxiEyeBlock, FramesAtRandom_AreShownWithTheirSmallestAndAlarms) {
         m.events_i = event_t::kFailed(1) << (c * kEventBits);
         block.clock();
         m.events_i = 0;
-        shown[c] = {};
+        shown[c].valid = false;
         put();
         block.clock();
         break;
       case 2:
         m.index_i = static_cast<std::uint8_t>(c);
         EXPECT_EQ(mb4test::read_page(block, reg::kAddrEye), shown[c].word());
-        if (shown[c].valid) shown[c].smallest = shown[c].width;
+        shown[c].smallest = shown[c].valid ? shown[c].width : kNone;
         break;
       case 3:
         m.index_i = static_cast<std::uint8_t>(kChannels + dice.below(13));
@@ -118,6 +126,7 @@ TEST(AxiEyeBlock, FramesAtRandom_AreShownWithTheirSmallestAndAlarms) {
           block.clock();
           m.clear_i = 0;
           alarms = 0;
+          for (Shown& one : shown) one.smallest = one.valid ? one.width : kNone;
         }
     }
   }

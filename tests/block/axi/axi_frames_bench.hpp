@@ -91,6 +91,9 @@ class AxiFrames {
     return places::axi_pkg::word_t::kPosition.of(m.word_o) |
            places::axi_pkg::more_t::kPositionHigh.get(m.more_o) << 32U;
   }
+  unsigned delay_told() const {
+    return static_cast<unsigned>(places::axi_pkg::result_t::kDelay.of(m.result_o));
+  }
   Eye eye() const {
     using namespace places::axi_pkg::eye_t;
     if (kValid.of(m.eye_o) == 0) return {};  // the numbers are older

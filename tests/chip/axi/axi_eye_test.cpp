@@ -5,6 +5,7 @@
 // the driver reads of the eye, alarm and interrupt (docs/axi.md, docs/samplers.md).
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <string>
 #include <vector>
 
@@ -178,6 +179,46 @@ TEST(AxiEye, RegisterAccess_GoesWithTheFrames) {
     EXPECT_EQ(bench.read(0, axireg::kAddrEye), 1U << 30U);
     bench.write(axireg::kAddrSoftReset, 0);
     bench.simulator.advance(50 * sim::kPsPerUs);
+  }
+}
+
+// Of `count` accesses those that end well on a bad line.
+unsigned accesses_done(const std::string& scenario, unsigned count) {
+  AxiBench bench(scenario);
+  Port port{bench};
+  biss_axi::Page page(port);
+  bench.set_up(26, kClocks / 2);
+  unsigned done = 0;
+  for (unsigned turn = 0; turn < count; ++turn) {
+    EXPECT_TRUE(page.begin_access({.address = 0x20}).ok());
+    auto result = page.access_result();
+    for (int i = 0; i < 100 && result->state == biss_axi::AccessState::kRunning; ++i) {
+      EXPECT_TRUE(bench.frame());
+      result = page.access_result();
+    }
+    if (result->state != biss_axi::AccessState::kDone) continue;
+    ++done;
+    EXPECT_EQ(result->value, 0x5A);
+  }
+  return done;
+}
+
+// The start bit and CDS of lines with nearly half a bit of jitter, or with jitter and distortion.
+TEST(AxiEye, RegisterAccessOnABadLine_IsAsGoodAsWithoutTheSampler) {
+  constexpr unsigned kCount = 25;
+  for (const std::string& keys : {jitter(45), jitter(35) + "skew_ns = -10.0\n"}) {
+    for (const double delay : {437.0}) {
+      const std::string line = axi_scenario(
+          {{.delay_ns = delay, .keys = keys, .slave = "registers = { 0x20 = [0x5A] }\n"}});
+      std::string full = line;
+      full.insert(full.find("f_clk_hz"), "features = \"full\"\n");
+      const unsigned without = accesses_done(full, kCount);
+      const unsigned with = accesses_done(frames(line), kCount);
+      EXPECT_GE(with + 2, without) << keys << delay;
+      EXPECT_GE(with, kCount * 9 / 10) << keys << delay;
+      std::printf("%g ns, %s: %u of %u, without the sampler %u\n", delay, keys.c_str(), with,
+                  kCount, without);
+    }
   }
 }
 
