@@ -7,8 +7,8 @@
 //
 // Clock domain: core. An access never waits. Reading EYE begins the smallest width anew, with the
 // last frame if that has a width; so does a soft reset. A frame without a width leaves it, and EYE
-// shows it again behind the next one that has one. EYE_ALARM looks at each frame once, two clocks after its end; alarm_o is high for this clock. A
-// frame without a width sets no alarm.
+// shows it again behind the next one that has one. EYE_ALARM looks at each frame once, two clocks
+// after its end; alarm_o is high for this clock. A frame without a width sets no alarm.
 //
 // Misuse: an index beyond the last channel reads 0.
 // Source: regmap/axi.rdl; docs/samplers.md.
