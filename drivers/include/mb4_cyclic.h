@@ -41,6 +41,7 @@ enum {
   MB4_CYCLIC_AGS = mb4::regs::AGS::encode<1>(),
   MB4_CYCLIC_HOLD = mb4::regs::HOLDBANK::encode<1>() | MB4_CYCLIC_AGS,
   MB4_CYCLIC_NO_INSTR = 0xFF & ~(mb4::regs::INSTR::kMask | mb4::regs::AGS::kMask),
+  MB4_CYCLIC_SWBANK = mb4::regs::SWBANK::kMask,
   MB4_CYCLIC_SCDERR = mb4::regs::nSCDERR::kMask,
   MB4_CYCLIC_AGSERR = mb4::regs::nAGSERR::kMask,
   MB4_CYCLIC_REGEND = mb4::regs::REGEND::kMask,
@@ -66,6 +67,7 @@ enum {
   MB4_CYCLIC_AGS = MB4_AGS_MASK,
   MB4_CYCLIC_HOLD = MB4_HOLDBANK_MASK | MB4_AGS_MASK,
   MB4_CYCLIC_NO_INSTR = 0xFF & ~(MB4_INSTR_MASK | MB4_AGS_MASK),
+  MB4_CYCLIC_SWBANK = MB4_SWBANK_MASK,
   MB4_CYCLIC_SCDERR = MB4_NSCDERR_MASK,
   MB4_CYCLIC_AGSERR = MB4_NAGSERR_MASK,
   MB4_CYCLIC_REGEND = MB4_REGEND_MASK,
@@ -416,6 +418,14 @@ static inline uint8_t mb4_cyclic_count(const mb4_cyclic *read, uint8_t with) {
   return (with & MB4_WITH_SEVERAL) != 0 ? read->count : 1;
 }
 
+/* FULL: the byte that holds the bank had SWBANK in it, which has swapped the banks until the
+ * release: what waits then may be old. */
+static inline bool mb4_cyclic_swapped(const mb4_cyclic *read, uint8_t with) {
+  return (with & MB4_WITH_FULL) != 0 && read->spi_check >= MB4_SPI_CHECK_FULL &&
+         read->code == MB4_CORRUPTED &&
+         (read->status[4] | MB4_CYCLIC_AGS) == (MB4_CYCLIC_HOLD | MB4_CYCLIC_SWBANK);
+}
+
 /* A plan with a status follows the release of the bank. */
 static inline bool mb4_cyclic_proves(const mb4_cyclic *read, uint8_t with) {
   return (with & MB4_WITH_FULL) != 0 && read->spi_check == MB4_SPI_CHECK_FULL_AND_RELEASE;
@@ -749,7 +759,7 @@ static inline uint8_t mb4_cyclic_take_proof(const mb4_cyclic *read, const mb4_pl
   } else if ((read->unheld ? rx[5] & MB4_CYCLIC_NO_INSTR
                            : (rx[5] | MB4_CYCLIC_AGS) ^ MB4_CYCLIC_AGS) == 0 &&
              !mb4_cyclic_forced(plan)) {
-    read->watch->held = false;
+    read->watch->held = mb4_cyclic_swapped(read, MB4_WITH_FULL);
     read->watch->astray = false;
     code = MB4_OK;
   }
@@ -1355,8 +1365,9 @@ static inline uint8_t mb4_cyclic_take_end(mb4_cyclic *read, mb4_plan *plan, bool
     return mb4_cyclic_release(read, plan, MB4_TRANSPORT);
   }
   /* The bank counts as held until it is known to be free. */
-  read->watch->held = !transferred || mb4_cyclic_proves(read, with);
-  if (transferred && read->watch->held) {
+  read->watch->held =
+      !transferred || mb4_cyclic_proves(read, with) || mb4_cyclic_swapped(read, with);
+  if (transferred && mb4_cyclic_proves(read, with)) {
     return mb4_cyclic_prove(read, plan, MB4_STAGE_PROVE_END, read->code);
   }
   return transferred ? read->code : (uint8_t)MB4_TRANSPORT;

@@ -302,6 +302,27 @@ TEST(DriverFaultRelease, LateAndFlipped_NeverAnOldPosition) {
   }
 }
 
+// The same bit in the byte that holds the bank: the release swaps the banks back, and a frame may
+// have ended meanwhile. At each microsecond of more than one period.
+TEST(DriverFaultRelease, SwapWhileTheBankIsHeld_NeverAnOldPosition) {
+  for (const mb4::SpiCheck check : {mb4::SpiCheck::kFull, mb4::SpiCheck::kFullAndRelease}) {
+    for (unsigned late_us = 90; late_us < 220; ++late_us) {
+      SCOPED_TRACE("check " + std::to_string(static_cast<int>(check)) + ", " +
+                   std::to_string(late_us) + " us late");
+      auto setup = kRelease;
+      setup.check = check;
+      Drive run(setup);
+      run.chip.simulator.advance(late_us * mb4::sim::kPsPerUs);
+      run.read();
+      run.chip.simulator.advance((late_us - 60) / 2 * mb4::sim::kPsPerUs);
+      run.chip.bus.plan({FaultKind::kFlipMosi, 0, 0, 10});
+      run.read(true);
+      run.chip.bus.plan({});
+      for (unsigned i = 0; i < 4; ++i) run.read(i == 0);
+    }
+  }
+}
+
 // A read between two steps of an access starts the access before once more, by INSTR = 100 in the
 // 0x07 that releases the bank. No other register of the encoder is written, and the access has
 // failed or has done what it says.
