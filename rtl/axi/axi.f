@@ -5,6 +5,7 @@
 -F ../biss/biss.f
 axi_pkg.sv
 ../../regmap/generated/axi/axi_regs_pkg.sv
+../biss/biss_frame_sampler.sv
 axi_crc.sv
 axi_rule.sv
 axi_word.sv

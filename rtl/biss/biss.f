@@ -8,7 +8,6 @@ biss_timebase.sv
 biss_sl_capture.sv
 biss_sl_sampler.sv
 biss_delay_sampler.sv
-biss_frame_sampler.sv
 biss_os_sampler.sv
 biss_rx_word.sv
 biss_edge_count.sv
