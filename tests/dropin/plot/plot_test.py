@@ -204,7 +204,7 @@ class Plot(unittest.TestCase):
                 self.assertEqual(drawn.stdout, (PICTURES / name).read_text(encoding="utf-8"))
                 self.assertEqual(drawn.returncode, 1 if "bad" in name else 0, drawn.stderr)
         # `sweep` draws the eye; CONTRIBUTING's commands compare it.
-        self.assertEqual(names | {"eye.svg", "dsl-eye.svg", "samplers.svg"}, {path.name for path in PICTURES.glob("*.svg")})
+        self.assertEqual(names | {"axi-eye.svg", "eye.svg", "dsl-eye.svg", "samplers.svg"}, {path.name for path in PICTURES.glob("*.svg")})
 
     def test_no_label_overlaps_another_or_leaves_the_picture(self):
         extra = [[GOLDEN], ["examples/two-channels.toml", "--channel", "2"],
