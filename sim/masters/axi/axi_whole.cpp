@@ -40,28 +40,29 @@ std::unique_ptr<AxiModel> make(const ChipConfig& chip, std::uint64_t seed, bool 
                                                                                         plain);
 }
 
+#if !MB4SIM_ONE_MODEL
+// The smallest model of a kind that has enough channels.
+template <typename One, typename Four, typename Sixteen>
+std::unique_ptr<AxiModel> make_of(const ChipConfig& chip, unsigned channels, std::uint64_t seed,
+                                  bool plain) {
+  if (channels <= 1) return make<One, 1>(chip, seed, plain);
+  if (channels <= 4) return make<Four, 4>(chip, seed, plain);
+  return make<Sixteen, kAxiChannels>(chip, seed, plain);
+}
+#endif
+
 }  // namespace
 
 std::unique_ptr<AxiModel> make_axi_whole(const ChipConfig& chip, [[maybe_unused]] unsigned channels,
                                          std::uint64_t seed, bool plain) {
 #if !MB4SIM_ONE_MODEL
-  if (chip.features == kAxiFull) {
-    if (channels <= 1) return make<Vaxi_full_1, 1>(chip, seed, plain);
-    if (channels <= 4) return make<Vaxi_full_4, 4>(chip, seed, plain);
-    return make<Vaxi_full_16, kAxiChannels>(chip, seed, plain);
-  }
-  if (chip.features == kAxiFrames) {
-    if (channels <= 1) return make<Vaxi_frames_1, 1>(chip, seed, plain);
-    if (channels <= 4) return make<Vaxi_frames_4, 4>(chip, seed, plain);
-    return make<Vaxi_frames_16, kAxiChannels>(chip, seed, plain);
-  }
-  if (channels <= 1) return make<Vaxi_1, 1>(chip, seed, plain);
-  if ((chip.quirks & kAxiAlignLatch) != 0) {
-    if (channels <= 4) return make<Vaxi_align_4, 4>(chip, seed, plain);
-    return make<Vaxi_align_16, kAxiChannels>(chip, seed, plain);
-  }
-  if (channels <= 4) return make<Vaxi_4, 4>(chip, seed, plain);
-  return make<Vaxi_16, kAxiChannels>(chip, seed, plain);
+  if (chip.features == kAxiFull)
+    return make_of<Vaxi_full_1, Vaxi_full_4, Vaxi_full_16>(chip, channels, seed, plain);
+  if (chip.features == kAxiFrames)
+    return make_of<Vaxi_frames_1, Vaxi_frames_4, Vaxi_frames_16>(chip, channels, seed, plain);
+  if ((chip.quirks & kAxiAlignLatch) != 0)  // a single channel has nothing to be aligned to
+    return make_of<Vaxi_1, Vaxi_align_4, Vaxi_align_16>(chip, channels, seed, plain);
+  return make_of<Vaxi_1, Vaxi_4, Vaxi_16>(chip, channels, seed, plain);
 #else
   return make<Vaxi_1, 1>(chip, seed, plain);
 #endif

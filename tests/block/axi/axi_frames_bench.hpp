@@ -18,6 +18,7 @@
 
 #include "places.hpp"
 #include "tests/block/biss/edge_slave.hpp"
+#include "tests/block/biss/widest_gap.hpp"
 #include "tests/support/model_context.hpp"
 
 namespace mb4test {
@@ -102,31 +103,22 @@ class AxiFrames {
   }
   // The eye by the samples of the frame.
   Eye expected() const {
-    const auto level = [this](std::size_t at) {
+    std::vector<bool> levels;  // the median of five samples
+    for (std::size_t at = 0; at < samples.size(); ++at) {
       int ones = 0;
       for (std::size_t i = 0; i < 5; ++i) ones += at < i || samples[at - i] ? 1 : 0;
-      return ones > 2;
-    };
-    std::size_t at = 0;
-    while (at < samples.size() && level(at)) ++at;
-    while (at + 2 < samples.size() && !(level(at) && level(at + 1) && level(at + 2))) ++at;
-    const std::size_t rise = at;
+      levels.push_back(ones > 2);
+    }
+    std::size_t rise = 0;
+    while (rise < levels.size() && levels[rise]) ++rise;
+    while (rise + 2 < levels.size() && !(levels[rise] && levels[rise + 1] && levels[rise + 2])) {
+      ++rise;
+    }
     const unsigned period = 2 * half_;
     const std::size_t end = rise + std::size_t{period} * (slave.payload.size() + 1);
-    if (end >= samples.size()) return {};
-    std::vector<bool> marks(period);
-    for (std::size_t i = 1; i < end; ++i) {
-      const std::size_t place = (i + std::size_t{period} * 2000 - rise) % period;
-      if (level(i) != level(i - 1)) marks[place] = true;
-    }
-    Eye found{true, 0, 0};
-    for (unsigned from = 0; from < period; ++from) {
-      if (!marks[from]) continue;
-      unsigned to = from + 1;
-      while (to < period && !marks[to]) ++to;
-      if (to - from > found.width) found = {true, to - from, to - 1};
-    }
-    return found;
+    if (end >= levels.size()) return {};
+    const Gap gap = widest_gap(levels, rise, end, period);
+    return {true, gap.width, gap.last};
   }
 
   void clock() {

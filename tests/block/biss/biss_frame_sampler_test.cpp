@@ -11,33 +11,13 @@
 #include <vector>
 
 #include "Vbiss_frame_sampler.h"
+#include "tests/block/biss/widest_gap.hpp"
 #include "tests/support/dice.hpp"
 #include "tests/support/model_context.hpp"
 
 namespace {
 
 using mb4test::Dice;
-
-struct Eye {
-  unsigned width = 0, last = 0;
-};
-
-// The widest gap between the places of all edges up to `end`; place 0 is at `rise`.
-Eye widest(const std::vector<bool>& samples, std::size_t rise, std::size_t end, unsigned period) {
-  std::vector<bool> marks(period);
-  for (std::size_t i = 1; i < end; ++i) {
-    const auto apart = static_cast<long>(i) - static_cast<long>(rise);
-    const long place = (apart % static_cast<long>(period) + period) % period;
-    if (samples[i] != samples[i - 1]) marks[static_cast<std::size_t>(place)] = true;
-  }
-  Eye eye;
-  for (unsigned from = 0; from < period; ++from) {
-    unsigned to = from + 1;
-    while (to < period && !marks[to]) ++to;
-    if (marks[from] && to - from > eye.width) eye = {to - from, to - 1};
-  }
-  return eye;
-}
 
 class FrameSamplerBlock : public testing::Test {
  protected:
@@ -110,7 +90,7 @@ TEST_F(FrameSamplerBlock, FramesAtRandom_BitsAndEyeAreThoseOfTheSamples) {
     const unsigned moves = dice.below(period);
     frame(half, bits, dice.below(5) == 0 ? dice.below(900) : dice.below(4), moves);
     const std::size_t end = rise + std::size_t{bits} * period;
-    const Eye eye = widest(samples, rise, end, period);
+    const mb4test::Gap eye = mb4test::widest_gap(samples, rise, end, period);
     ASSERT_EQ(m.eye_valid_o, 1);
     EXPECT_EQ(m.eye_width_o, eye.width);
     EXPECT_EQ(m.eye_last_o, eye.last);

@@ -46,6 +46,12 @@ inline std::string axi_scenario(const std::vector<AxiEncoder>& encoders,
   return text;
 }
 
+// The same with [chip] features = "full" or "frames".
+inline std::string with_features(std::string scenario, const std::string& features) {
+  scenario.insert(scenario.find("f_clk_hz"), "features = \"" + features + "\"\n");
+  return scenario;
+}
+
 // The position with nE = nW = 1 as the encoder sends it.
 constexpr std::uint64_t raw_word(std::uint64_t position) { return position << 2U | 3U; }
 
@@ -117,6 +123,17 @@ inline void expect_frame_without_crc(AxiBench& bench, const std::string& level) 
   EXPECT_EQ(bench.read(axireg::kAddrReceivedCrc), 0U) << level;
   EXPECT_EQ(bench.read(axireg::kAddrCalculatedCrc), 0U) << level;
 }
+
+// The words of a driver.
+struct AxiPort {
+  AxiBench& bench;
+  bool write(std::uint32_t offset, std::uint32_t value) const {
+    return bench.host.write(static_cast<std::uint8_t>(offset), value) == std::uint8_t{0};
+  }
+  bool read(std::uint32_t offset, std::uint32_t& value) const {
+    return bench.host.read(static_cast<std::uint8_t>(offset), value) == std::uint8_t{0};
+  }
+};
 
 }  // namespace mb4test
 

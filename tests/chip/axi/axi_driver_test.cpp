@@ -20,16 +20,6 @@ struct World {
 };
 World world;
 
-struct SimPort {
-  AxiBench& bench;
-  bool write(std::uint32_t offset, std::uint32_t value) const {
-    return bench.host.write(static_cast<std::uint8_t>(offset), value) == std::uint8_t{0};
-  }
-  bool read(std::uint32_t offset, std::uint32_t& value) const {
-    return bench.host.read(static_cast<std::uint8_t>(offset), value) == std::uint8_t{0};
-  }
-};
-
 struct SimTime {
   AxiBench& bench;
   std::uint32_t now_us() const {
@@ -37,7 +27,7 @@ struct SimTime {
   }
 };
 
-using Device = biss_axi::Device<SimPort, SimTime>;
+using Device = biss_axi::Device<AxiPort, SimTime>;
 
 std::vector<AxiEncoder> two() { return {{.delay_ns = 35}, {.delay_ns = 435}}; }
 
@@ -45,7 +35,7 @@ std::vector<AxiEncoder> two() { return {{.delay_ns = 35}, {.delay_ns = 435}}; }
 struct Driven {
   explicit Driven(const std::string& scenario = axi_scenario(two())) : bench(scenario) {}
   AxiBench bench;
-  SimPort port{bench};
+  AxiPort port{bench};
   SimTime time{bench};
   Device device{port, time};
   biss_axi::Config config;
@@ -154,7 +144,7 @@ TEST_F(AxiDriver, SlaveError_GivesNoPositionButAReading) {
 // another (x^6, x^7 modulo x^6 + x + 1); any other one is a CRC error.
 TEST_F(AxiDriver, CrcThatFitsNoPair_IsCrc) {
   struct FlippedPort {
-    SimPort inner;
+    AxiPort inner;
     std::uint32_t flip = 0;
     bool write(std::uint32_t offset, std::uint32_t value) const {
       return inner.write(offset, value);
@@ -217,10 +207,7 @@ TEST_F(AxiDriver, InternalClock_SamplesAtItsFrequency) {
 // ---- the page, [chip] features = "full"
 // ----------------------------------------------------------
 
-std::string full(std::string text) {
-  text.insert(text.find("f_clk_hz"), "features = \"full\"\n");
-  return text;
-}
+std::string full(const std::string& text) { return with_features(text, "full"); }
 
 // With counters nothing is reset, and a request in a timeout is made again.
 TEST_F(AxiDriver, ReadSingleWithCounters_ResetsNothingAndWaitsForTheTimeout) {

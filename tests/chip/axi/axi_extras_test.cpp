@@ -15,11 +15,7 @@
 namespace mb4test {
 namespace {
 
-std::string full(const std::string& text) {
-  std::string out = text;
-  out.insert(out.find("f_clk_hz"), "features = \"full\"\n");
-  return out;
-}
+std::string full(const std::string& text) { return with_features(text, "full"); }
 
 std::string without_crc(std::string text) {
   for (std::size_t at = text.find("crc = 0x43\n"); at != std::string::npos;

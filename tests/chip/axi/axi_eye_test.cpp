@@ -9,33 +9,17 @@
 #include <string>
 #include <vector>
 
-#include "biss_axi/device.hpp"
 #include "biss_axi/page.hpp"
-#include "biss_axi/spi_port.hpp"
 #include "sim/core/random.hpp"
-#include "sim/hosts/spi_host.hpp"
 #include "sim/lines/device.hpp"
-#include "tests/chip/axi/axi_bench.hpp"
+#include "tests/chip/axi/axi_spi_bench.hpp"
 
 namespace mb4test {
 namespace {
 
 constexpr unsigned kClocks = 10;  // of a bit: 100 MHz, MA 10 MHz
 
-std::string frames(std::string text) {
-  text.insert(text.find("f_clk_hz"), "features = \"frames\"\n");
-  return text;
-}
-
-struct Port {
-  AxiBench& bench;
-  bool write(std::uint32_t offset, std::uint32_t value) const {
-    return bench.host.write(static_cast<std::uint8_t>(offset), value) == std::uint8_t{0};
-  }
-  bool read(std::uint32_t offset, std::uint32_t& value) const {
-    return bench.host.read(static_cast<std::uint8_t>(offset), value) == std::uint8_t{0};
-  }
-};
+std::string frames(const std::string& text) { return with_features(text, "frames"); }
 
 std::string jitter(double percent) { return "jitter_ns = " + std::to_string(percent) + "\n"; }
 
@@ -63,7 +47,7 @@ TEST_P(AxiEyeOfLines, LinesThatJitter_AreReadAndTold) {
     encoders[c].keys = jitter(50.0 * c / channels);
   }
   AxiBench bench(frames(axi_scenario(encoders)));
-  Port port{bench};
+  AxiPort port{bench};
   biss_axi::Page page(port);
   bench.set_up(26, kClocks / 2);
   sim::Random random(channels);
@@ -120,7 +104,7 @@ TEST(AxiEye, SameLineWithoutTheSampler_LosesWords) {
 
 TEST(AxiEye, NarrowEye_IsAnAlarmAndAnInterrupt) {
   AxiBench bench(frames(axi_scenario({{.delay_ns = 35}, {.delay_ns = 72, .keys = jitter(40)}})));
-  Port port{bench};
+  AxiPort port{bench};
   biss_axi::Page page(port);
   bench.set_up(26, kClocks / 2);
   EXPECT_EQ(page.watch_eyes(32).error(), biss_axi::Error::kConfig);
@@ -140,7 +124,7 @@ TEST(AxiEye, NarrowEye_IsAnAlarmAndAnInterrupt) {
 
 TEST(AxiEye, UnpluggedLine_HasNoNumbers) {
   AxiBench bench(frames(axi_scenario({{.delay_ns = 35}})));
-  Port port{bench};
+  AxiPort port{bench};
   biss_axi::Page page(port);
   bench.set_up(26, kClocks / 2);
   ASSERT_TRUE(bench.frame());
@@ -159,22 +143,28 @@ TEST(AxiEye, UnpluggedLine_HasNoNumbers) {
   EXPECT_EQ(slow.read(0, axireg::kAddrEye), 0U);
 }
 
+// Reads register 0x20 of the encoder, one bit in each frame.
+biss_axi::AccessResult read_0x20(AxiBench& bench, biss_axi::Page<AxiPort>& page) {
+  EXPECT_TRUE(page.begin_access({.address = 0x20}).ok());
+  auto result = page.access_result();
+  for (int i = 0; i < 100 && result->state == biss_axi::AccessState::kRunning; ++i) {
+    EXPECT_TRUE(bench.frame());
+    result = page.access_result();
+  }
+  return *result;
+}
+
 // A register access in the frames of a line that jitters, and the same after a soft reset.
 TEST(AxiEye, RegisterAccess_GoesWithTheFrames) {
   AxiBench bench(frames(axi_scenario(
       {{.delay_ns = 235, .keys = jitter(20), .slave = "registers = { 0x20 = [0x5A] }\n"}})));
-  Port port{bench};
+  AxiPort port{bench};
   biss_axi::Page page(port);
   bench.set_up(26, kClocks / 2);
   for (int turn = 0; turn < 2; ++turn) {
-    ASSERT_TRUE(page.begin_access({.address = 0x20}).ok());
-    auto result = page.access_result();
-    for (int i = 0; i < 100 && result->state == biss_axi::AccessState::kRunning; ++i) {
-      ASSERT_TRUE(bench.frame());
-      result = page.access_result();
-    }
-    EXPECT_EQ(result->state, biss_axi::AccessState::kDone);
-    EXPECT_EQ(result->value, 0x5A);
+    const auto result = read_0x20(bench, page);
+    EXPECT_EQ(result.state, biss_axi::AccessState::kDone);
+    EXPECT_EQ(result.value, 0x5A);
     bench.write(axireg::kAddrSoftReset, 1);
     EXPECT_EQ(bench.read(0, axireg::kAddrEye), 1U << 30U);
     bench.write(axireg::kAddrSoftReset, 0);
@@ -185,20 +175,15 @@ TEST(AxiEye, RegisterAccess_GoesWithTheFrames) {
 // Of `count` accesses those that end well on a bad line.
 unsigned accesses_done(const std::string& scenario, unsigned count) {
   AxiBench bench(scenario);
-  Port port{bench};
+  AxiPort port{bench};
   biss_axi::Page page(port);
   bench.set_up(26, kClocks / 2);
   unsigned done = 0;
   for (unsigned turn = 0; turn < count; ++turn) {
-    EXPECT_TRUE(page.begin_access({.address = 0x20}).ok());
-    auto result = page.access_result();
-    for (int i = 0; i < 100 && result->state == biss_axi::AccessState::kRunning; ++i) {
-      EXPECT_TRUE(bench.frame());
-      result = page.access_result();
-    }
-    if (result->state != biss_axi::AccessState::kDone) continue;
+    const auto result = read_0x20(bench, page);
+    if (result.state != biss_axi::AccessState::kDone) continue;
     ++done;
-    EXPECT_EQ(result->value, 0x5A);
+    EXPECT_EQ(result.value, 0x5A);
   }
   return done;
 }
@@ -207,50 +192,24 @@ unsigned accesses_done(const std::string& scenario, unsigned count) {
 TEST(AxiEye, RegisterAccessOnABadLine_IsAsGoodAsWithoutTheSampler) {
   constexpr unsigned kCount = 25;
   for (const std::string& keys : {jitter(45), jitter(35) + "skew_ns = -10.0\n"}) {
-    for (const double delay : {437.0}) {
-      const std::string line = axi_scenario(
-          {{.delay_ns = delay, .keys = keys, .slave = "registers = { 0x20 = [0x5A] }\n"}});
-      std::string full = line;
-      full.insert(full.find("f_clk_hz"), "features = \"full\"\n");
-      const unsigned without = accesses_done(full, kCount);
-      const unsigned with = accesses_done(frames(line), kCount);
-      EXPECT_GE(with + 2, without) << keys << delay;
-      EXPECT_GE(with, kCount * 9 / 10) << keys << delay;
-      std::printf("%g ns, %s: %u of %u, without the sampler %u\n", delay, keys.c_str(), with,
-                  kCount, without);
-    }
+    const std::string line =
+        axi_scenario({{.delay_ns = 437, .keys = keys, .slave = "registers = { 0x20 = [0x5A] }\n"}});
+    const unsigned without = accesses_done(with_features(line, "full"), kCount);
+    const unsigned with = accesses_done(frames(line), kCount);
+    EXPECT_GE(with + 2, without) << keys;
+    EXPECT_GE(with, kCount * 9 / 10) << keys;
+    std::printf("%s: %u of %u, without the sampler %u\n", keys.c_str(), with, kCount, without);
   }
 }
 
-struct SpiBus {
-  bool transfer(enc::Span<const std::uint8_t> tx, enc::Span<std::uint8_t> rx) {
-    host.transfer({tx.data(), tx.size()}, {rx.data(), rx.size()});
-    return true;
-  }
-  sim::SpiHost& host;
-};
-
 TEST(AxiEye, BehindSpi_TheSame) {
-  std::string text = axi_scenario({{.delay_ns = 35, .keys = jitter(50)}}) +
-                     "[host]\ninterface = \"spi\"\nsclk_hz = 10000000\n";
-  sim::Simulator simulator(sim::parse_scenario(frames(text), "test.toml"));
-  simulator.advance(AxiBench::kTimeoutLimit * 10 * sim::kPsPerNs);
-  SpiBus bus{simulator.spi()};
-  struct Clock {
-    std::uint32_t now_us() {
-      simulator.advance(100 * sim::kPsPerNs);
-      return static_cast<std::uint32_t>(simulator.now() / sim::kPsPerUs);
-    }
-    sim::Simulator& simulator;
-  } clock{simulator};
-  biss_axi::SpiPort<SpiBus> port{bus};
-  biss_axi::Device<biss_axi::SpiPort<SpiBus>, Clock> device{port, clock};
-  biss_axi::Page<biss_axi::SpiPort<SpiBus>> page{port};
-  ASSERT_TRUE(device.configure({}).ok());
+  SpiBench bench(
+      behind_spi({{.delay_ns = 35, .keys = jitter(50)}}, 100'000'000, 10'000'000, "frames"));
+  ASSERT_TRUE(bench.device.configure({}).ok());
   for (std::uint32_t i = 1; i < 100; ++i) {
-    simulator.slave(1)->set_data(raw_word(i * 777));
-    ASSERT_EQ(device.read_single(0).value_or(0), i * 777);
-    const auto eye = page.eye(0);
+    bench.simulator.slave(1)->set_data(raw_word(i * 777));
+    ASSERT_EQ(bench.device.read_single(0).value_or(0), i * 777);
+    const auto eye = bench.page.eye(0);
     ASSERT_TRUE(eye.ok() && eye->valid);
     EXPECT_GE(eye->width, 4);
     EXPECT_LE(eye->width, 9);

@@ -39,10 +39,7 @@ struct Clock {
   AxiBench& bench;
 };
 
-std::string full(std::string text) {
-  text.insert(text.find("f_clk_hz"), "features = \"full\"\n");
-  return text;
-}
+std::string full(const std::string& text) { return with_features(text, "full"); }
 
 struct Loop {
   explicit Loop(const std::vector<AxiEncoder>& encoders) : bench(full(axi_scenario(encoders))) {}

@@ -54,7 +54,7 @@ class AxiReset : public testing::TestWithParam<Case> {
     }
     std::string text = "[sim]\nseed = " + std::to_string(below(1'000'000)) + "\n" +
                        axi_scenario(encoders, 100'000'000, "", quirk(GetParam().por_pin));
-    if (full) text.insert(text.find("f_clk_hz"), "features = \"full\"\n");
+    if (full) text = with_features(text, "full");
     return text;
   }
 

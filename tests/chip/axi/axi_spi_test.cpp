@@ -6,53 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "biss_axi/device.hpp"
-#include "biss_axi/page.hpp"
-#include "biss_axi/spi_port.hpp"
 #include "biss_spi.h"
-#include "sim/hosts/spi_host.hpp"
-#include "tests/chip/axi/axi_bench.hpp"
+#include "tests/chip/axi/axi_spi_bench.hpp"
 
 namespace mb4test {
 namespace {
-
-struct SpiBus {
-  bool transfer(enc::Span<const std::uint8_t> tx, enc::Span<std::uint8_t> rx) {
-    host.transfer({tx.data(), tx.size()}, {rx.data(), rx.size()});
-    return true;
-  }
-  sim::SpiHost& host;
-};
-
-struct Clock {
-  std::uint32_t now_us() {
-    simulator.advance(100 * sim::kPsPerNs);
-    return static_cast<std::uint32_t>(simulator.now() / sim::kPsPerUs);
-  }
-  sim::Simulator& simulator;
-};
-
-std::string behind_spi(const std::vector<AxiEncoder>& encoders, std::uint64_t f_clk_hz,
-                       std::uint64_t sclk_hz, bool full = false) {
-  std::string text = axi_scenario(encoders, f_clk_hz) +
-                     "[host]\ninterface = \"spi\"\nsclk_hz = " + std::to_string(sclk_hz) + "\n";
-  if (full) text.insert(text.find("f_clk_hz"), "features = \"full\"\n");
-  return text;
-}
-
-struct SpiBench {
-  explicit SpiBench(const std::string& scenario)
-      : simulator(sim::parse_scenario(scenario, "test.toml")) {
-    simulator.advance(AxiBench::kTimeoutLimit * sim::kPsPerSecond /
-                      simulator.scenario().chip.f_clk_hz);
-  }
-  sim::Simulator simulator;
-  SpiBus bus{simulator.spi()};
-  Clock clock{simulator};
-  biss_axi::SpiPort<SpiBus> port{bus};
-  biss_axi::Device<biss_axi::SpiPort<SpiBus>, Clock> device{port, clock};
-  biss_axi::Page<biss_axi::SpiPort<SpiBus>> page{port};
-};
 
 // Four channels, an eighth and a quarter of the clock, both modes of SPI.
 TEST(AxiSpi, Driver_ReadsEachChannel) {
@@ -142,7 +100,7 @@ TEST(AxiSpi, C99Calls_ReadEachChannel) {
 // The line is pulled off: no number comes, and none of before.
 TEST(AxiSpi, UnpluggedLine_GivesNoNumber) {
   SpiBench bench(behind_spi({{.slave = "data = " + std::to_string(raw_word(77)) + "\n"}},
-                            100'000'000, 10'000'000, true));
+                            100'000'000, 10'000'000, "full"));
   ASSERT_TRUE(bench.device.configure({}).ok());
   ASSERT_TRUE(bench.device.read_all().ok());
   auto last = bench.page.last(0);
