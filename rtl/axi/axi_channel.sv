@@ -206,10 +206,10 @@ module axi_channel #(
   if (FrameSampler) begin : gen_frame_sampler
     logic usable, rose, frame_valid, frame_bit, eye_valid, taken, shown;
     logic usable_q;
-    logic [4:0] width, last;
+    logic [4:0] width, point;
     logic       eye_valid_q;
     logic [4:0] eye_width_q;
-    logic [4:0] eye_last_q;
+    logic [4:0] eye_point_q;
 
     biss_frame_sampler u_frame_sampler (
       .clk_i,
@@ -226,7 +226,7 @@ module axi_channel #(
       .bit_o       (frame_bit),
       .eye_valid_o (eye_valid),
       .eye_width_o (width),
-      .eye_last_o  (last)
+      .eye_point_o (point)
     );
 
     // frame_i stays while a frame runs.
@@ -248,18 +248,18 @@ module axi_channel #(
       if (!rst_ni) begin
         eye_valid_q <= 1'b0;
         eye_width_q <= '0;
-        eye_last_q  <= '0;
+        eye_point_q <= '0;
       end else begin
         if (clear_i || !enabled_i || ended_q || fail || late_start) eye_valid_q <= shown;
         if (shown) eye_width_q <= width;
-        if (shown) eye_last_q  <= last;
+        if (shown) eye_point_q <= point;
       end
     end
 
     assign eye_o.valid = eye_valid_q;
     assign eye_o.used  = usable;
     assign eye_o.width = eye_width_q;
-    assign eye_o.last  = eye_last_q;
+    assign eye_o.point = eye_point_q;
   end else begin : gen_no_frame_sampler
     assign framed     = 1'b0;
     assign median     = 1'b0;

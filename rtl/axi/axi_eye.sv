@@ -99,7 +99,7 @@ module axi_eye #(
           data_o[28:25] = eye.width[4:1];
           data_o[24:21] = eye.width[4:1] - 4'(!eye.width[0]);
           data_o[20:16] = smallest;
-          data_o[12:8]  = eye.last - {1'b0, eye.width[4:1]};
+          data_o[12:8]  = eye.point;
           data_o[4:0]   = eye.width;
         end
       end

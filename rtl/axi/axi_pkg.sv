@@ -91,7 +91,7 @@ package axi_pkg;
     logic        valid;
     logic        used;          // biss_frame_sampler takes the words at this MA divider
     logic [4:0]  width;         // clocks without an edge
-    logic [4:0]  last;          // the last of them, behind the rising edge of the start bit
+    logic [4:0]  point;         // sampling point, clocks behind the rising edge of the start bit
   } eye_t;
 
   // What happens in a channel. Each of the first five is high for one clock.

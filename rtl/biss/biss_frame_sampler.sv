@@ -48,7 +48,7 @@ module biss_frame_sampler (
   output logic       bit_o,
   output logic       eye_valid_o,
   output logic [4:0] eye_width_o,  // the widest gap, in clocks
-  output logic [4:0] eye_last_o    // its last place
+  output logic [4:0] eye_point_o   // place of the point
 );
 
   localparam int unsigned MOST   = 20;  // clocks of a bit
@@ -174,7 +174,8 @@ module biss_frame_sampler (
 
   // ---- ring ---------------------------------------------------------------------------------
 
-  // From the mark behind the gap back by half of it and one more; last_q is one before it.
+  // From the mark behind the gap back by half of it and one more; last_q is one before it. It means
+  // something when the last bit is over.
   assign point = last_q - {1'b0, width_q[4:1]};
 
   // time_q follows the samples to place 0 of the third bit, then goes to the point, then from bit
@@ -223,7 +224,7 @@ module biss_frame_sampler (
   assign bit_o       = level_q;
   assign eye_valid_o = read_q;
   assign eye_width_o = width_q;
-  assign eye_last_o  = last_q;
+  assign eye_point_o = point;
 
   `ENC_ASSERT_IF(OnlyWhereUsable_A, clk_i, rst_ni, read_q, started_q)
 

@@ -32,12 +32,12 @@ module proof (
   localparam logic [4:0] PERIOD = 5'd10;
 
   logic       usable, rose, bit_valid, frame_bit, eye_valid;
-  logic [4:0] width, last;
+  logic [4:0] width, point, last;
 
   biss_frame_sampler u_dut (
     .clk_i, .rst_ni, .sl_i, .half_last_i (8'd4), .bit_last_i (7'd5), .run_i (1'b1), .clear_i, .ack_i,
     .usable_o (usable), .started_o (rose), .bit_valid_o (bit_valid), .bit_o (frame_bit),
-    .eye_valid_o (eye_valid), .eye_width_o (width), .eye_last_o (last)
+    .eye_valid_o (eye_valid), .eye_width_o (width), .eye_point_o (point)
   );
 
   logic       started = 1'b0;
@@ -78,6 +78,7 @@ module proof (
   logic [4:0] first;
   logic       inside, wider, before, clean;
   always @* begin
+    last   = point + {1'b0, width[4:1]};
     first  = last + 5'd1 - width;
     inside = 1'b0;
     wider  = 1'b0;

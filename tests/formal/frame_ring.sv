@@ -33,6 +33,7 @@
 // look: data = u_dut.data_q
 // look: marks = u_dut.marks_q
 // look: gap = u_dut.gap_q
+// look: eye_last = u_dut.last_q
 // look: point_now = u_dut.point_q
 // look: now = u_dut.now_q
 // look: then_at = u_dut.time_q
@@ -65,19 +66,19 @@ module proof (
   (* anyconst *) logic [11:0] when;           // the sample that the bench keeps: clocks behind the start bit
 
   logic        usable, rose, bit_valid, frame_bit, eye_valid;
-  logic [4:0]  eye_width, eye_last;
+  logic [4:0]  eye_width, eye_point;
 
   biss_frame_sampler u_dut (
     .clk_i, .rst_ni, .sl_i, .half_last_i, .bit_last_i, .run_i (1'b1), .clear_i, .ack_i,
     .usable_o (usable), .started_o (rose), .bit_valid_o (bit_valid), .bit_o (frame_bit),
-    .eye_valid_o (eye_valid), .eye_width_o (eye_width), .eye_last_o (eye_last)
+    .eye_valid_o (eye_valid), .eye_width_o (eye_width), .eye_point_o (eye_point)
   );
 
   wire [7:0]  kept_row;
   wire [15:0] kept_data, row;
   wire        before;
   wire [1:0]  ones;
-  wire [4:0]  place, gap;
+  wire [4:0]  place, gap, eye_last;
   wire [6:0]  number;
   wire [19:0] marks;
   wire        data, point_now, fetch, fetched;
@@ -184,6 +185,7 @@ module proof (
     if (!usable) Unusable_A: assert (!rose && !bit_valid && !eye_valid);
     Started_A: assert (rose == runs_q);
     Eye_A:     assert (eye_valid == (runs_q && run_q > over));
+    Point_A:   assert (eye_point == middle);
     if (bit_valid) Early_A: assert (runs_q && run_q >= over + 12'd3 + 12'(got_q));
     if (runs_q && got_q < bits) Late_A: assert (run_q <= over + 12'd3 + 12'(got_q) + WAIT);
     if (bit_valid && got_q < bits && seen_q && when == first + 12'(middle) + times(got_q, half))

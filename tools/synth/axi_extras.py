@@ -62,7 +62,7 @@ def main():
                 base[name, n] = luts, flops
             below = base.get(("none" if name in ("PAGE", "ALIGN_LATCH") else "PAGE", n))
             row.append(f"{luts} / {flops}" if name in ("none", "all")
-                       else f"+{luts - below[0]} / +{flops - below[1]}")
+                       else f"{luts - below[0]:+} / {flops - below[1]:+}")
         print(f"| `{name}` | " + " | ".join(row) + " |", flush=True)
 
 

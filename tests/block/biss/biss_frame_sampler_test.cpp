@@ -93,8 +93,8 @@ TEST_F(FrameSamplerBlock, FramesAtRandom_BitsAndEyeAreThoseOfTheSamples) {
     const mb4test::Gap eye = mb4test::widest_gap(samples, rise, end, period);
     ASSERT_EQ(m.eye_valid_o, 1);
     EXPECT_EQ(m.eye_width_o, eye.width);
-    EXPECT_EQ(m.eye_last_o, eye.last);
     const std::size_t point = eye.last - eye.width / 2;
+    EXPECT_EQ(m.eye_point_o, point);
     std::string expected;
     for (unsigned i = 2; i < bits; ++i) expected += samples[rise + point + i * period] ? '1' : '0';
     EXPECT_EQ(got, expected) << bits << " bits of " << period << " clocks";
@@ -148,7 +148,7 @@ TEST_F(FrameSamplerBlock, AtRest_NothingMoves) {
   m.run_i = 0;
   const auto seen = [this] {
     m.eval();
-    return std::vector<unsigned>{m.eye_valid_o, m.eye_width_o, m.eye_last_o,
+    return std::vector<unsigned>{m.eye_valid_o, m.eye_width_o, m.eye_point_o,
                                  m.started_o,   m.bit_valid_o, m.bit_o};
   };
   const auto before = seen();
