@@ -118,6 +118,20 @@ class Generics:
         entry.end()
 
 
+class Size:
+    def __init__(self, entry):
+        self.page, self.note = entry.need("page", str), entry.need("note", str)
+        self.lut4, self.mhz = entry.need("lut4", int), entry.need("mhz", int)
+        self.median = entry.take("median", int, 0)
+        self.seeds = entry.take("seeds", int, 3)
+        self.parameters = entry.table("parameters", int)
+        self.flags = entry.take("flags", str, "")
+        self.up5k = entry.take("up5k", bool, False)
+        if self.seeds < 1:
+            entry.wrong("seeds", "is less than 1")
+        entry.end()
+
+
 class Top:
     def __init__(self, name, master, entry):
         self.name, self.master = name, master
@@ -128,6 +142,8 @@ class Top:
         self.parameters = entry.table("parameters", int)
         buses = entry.take("buses", list, [])
         self.buses = [Bus(Entry(f"{entry.where}.buses[{place}]", values)) for place, values in enumerate(buses)]
+        size = entry.take("size", dict)
+        self.size = Size(Entry(f"{entry.where}.size", size)) if size is not None else None
         generics = entry.take("generics", dict)
         self.generics = Generics(Entry(f"{entry.where}.generics", generics)) if generics is not None else None
         entry.end()
@@ -266,6 +282,11 @@ class Master:
         if top.clocks and not crossings.exists():
             wrong("clocks", f"'{crossings.relative_to(self.root).as_posix()}' does not exist")
         self.check_parameters(path, top.parameters, lambda name, what: wrong(f"parameters.{name}", what))
+        if top.size is not None:
+            self.check_parameters(path, top.size.parameters, lambda name, what: wrong(f"size.parameters.{name}", what))
+            page = f"docs/{top.size.page.partition('#')[0]}"
+            if not (self.root / page).exists():
+                wrong("size.page", f"'{page}' does not exist")
         if top.buses:
             if not 1 <= len(self.maps) <= 2:
                 wrong("buses", f"needs one or two maps, there are {len(self.maps)}")
@@ -361,6 +382,7 @@ def cmake(masters):
                   put(f"{own}_SWITCH_TEXT", *([master.switch_text] if master.switch else [])),
                   put(f"{own}_TOPS", *master.tops),
                   put(f"{own}_ICE40", *[name for name, top in master.tops.items() if top.ice40]),
+                  put(f"{own}_SIZE", *[name for name, top in master.tops.items() if top.size]),
                   put(f"{own}_GATES", *master.gates), put(f"{own}_MEASURED", *master.measured)]
         # What a model is made from: it is made again when this changes.
         for gate in master.gates.values():
@@ -388,6 +410,7 @@ def checks(master):
         ("lint", " ".join(master.tops)),
         ("netlist", master.list.relative_to(master.root) if master.list else ""),
         ("netlist ice40", " ".join(top.name for top in tops if top.ice40)),
+        ("size and speed", " ".join(top.name for top in tops if top.size)),
         ("formal", master.room or ""),
         ("gates", " ".join(master.gates)),
         ("mutants", " ".join(master.measured)),

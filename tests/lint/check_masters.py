@@ -28,8 +28,11 @@ import sv_widths  # noqa: E402
 
 ITEMS = "tools/signoff/items.toml"
 SIMULATOR, COMMANDS = "sim/masters/masters.cpp", "tools/mb4sim/masters/support.cpp"
+PROJECTS = "tools/synth/projects/release.tcl"
 # (master, what it lacks): why. A row that is not needed is a finding.
-WAIVED: dict[tuple[str, str], str] = {("dsl_model", "simulated"): "the commands of dsl are its own too"}
+WAIVED: dict[tuple[str, str], str] = {
+    ("dsl_model", "simulated"): "the commands of dsl are its own too",
+    ("mb4", "size"): "the first parts of docs/resources.md, and Nightly.CoreOnHx8k_ReachesFiftyMegahertz"}
 
 
 def own_modules(master):
@@ -44,8 +47,8 @@ def bus_of(top):
 
 
 def lists():
-    """{list of masters in C++: its text}"""
-    return {name: (ROOT / name).read_text(encoding="utf-8") for name in (SIMULATOR, COMMANDS)}
+    """{list of masters that is no masters.toml: its text}"""
+    return {name: (ROOT / name).read_text(encoding="utf-8") for name in (SIMULATOR, COMMANDS, PROJECTS)}
 
 
 def simulated(master, texts):
@@ -75,7 +78,7 @@ def design_tests(design):
     return [f"Nightly.RtlCoverage_IsAboveItsGoals{of}", f"Nightly.Mutants_AreCaught{of}"]
 
 
-def lacks(master, table, compared, proofs):
+def lacks(master, table, compared, proofs, texts):
     """{what a master lacks: the finding}"""
     rooms = [block.get("room", "") for block in table["block"]]
     own = {path.stem for path in own_modules(master)}
@@ -94,7 +97,11 @@ def lacks(master, table, compared, proofs):
         found["measured"] = "masters.toml has no measured: no coverage, no planted faults"
     if not any(top.plain or top.generics for top in master.tops.values()):
         found["release"] = "no top has plain or generics: no VHDL, and nothing for other tools in a release"
+    if not any(top.size for top in master.tops.values()):
+        found["size"] = "no top has size: no test of its size and speed, no row in docs/resources.md"
     for top in master.tops.values():
+        if top.clocks and not re.search(rf"\bvariable rooms {{.*\b{top.name} {room}\b", texts[PROJECTS]):
+            found["projects"] = f"{PROJECTS}: rooms has no {top.name} {room}"
         if not top.buses and bus_of(top):
             found["buses"] = f"the top {top.name} has the port {bus_of(top)}, and no key buses: no IP-XACT"
     for what, tests in (("proofs", proof_tests(proof for proof, modules in proofs.items() if modules & own)),
@@ -109,7 +116,7 @@ def findings(masters, table, compared, proofs, waived, texts):
     """`proofs` is {proof: modules in it}, `texts` is that of lists()."""
     found, needed = [], set()
     for name, master in masters.items():
-        missing = lacks(master, table, compared, proofs) if master.list else {}
+        missing = lacks(master, table, compared, proofs, texts) if master.list else {}
         if simulated(master, texts):
             missing["simulated"] = simulated(master, texts)
         for what, text in missing.items():
@@ -143,8 +150,8 @@ def self_test(masters, table, compared, proofs):
     bare = copy.deepcopy(masters)
     bare["axi"].gates, bare["axi"].measured, bare["axi"].core = {}, {}, None
     for top in bare["axi"].tops.values():
-        top.buses, top.generics, top.plain = [], None, False
-    for what in ("netlist", "measured", "buses", "release", "core"):
+        top.buses, top.generics, top.plain, top.size = [], None, False, None
+    for what in ("netlist", "measured", "buses", "release", "core", "size"):
         expect(f"axi: {what}: ", masters=bare)
     unread = copy.deepcopy(masters)
     unread["axi"].name = "nopage"
@@ -152,6 +159,7 @@ def self_test(masters, table, compared, proofs):
     for file, text in ((SIMULATOR, '#include "sim/masters/axi/'), (SIMULATOR, "-DMB4_AXI=ON"),
                        (COMMANDS, '#include "masters/axi/'), (COMMANDS, "MB4SIM_WITH_AXI")):
         expect(f"axi: simulated: {file} has no {text}", texts={**lists(), file: lists()[file].replace(text, "x")})
+    expect("axi: projects: ", texts={**lists(), PROJECTS: lists()[PROJECTS].replace("biss_spi axi", "")})
     expect("mb4: block: is there", waived={**WAIVED, ("mb4", "block"): "planted"})
     return missed
 

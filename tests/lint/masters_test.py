@@ -84,6 +84,14 @@ WRONG = (
     ('[toy]\nwhat = "a"\nlist = "toy.f"\nmaps = ["a"]\n[toy.tops.toy]\nbuses = [{name = "bus", kind = "wishbone", prefix = "wb_"}]\n'
      '[toy.tops.toy.generics.derived.WIDTH]\ndefault = 1\nxpath = "{NONE} + 1"\n',
      "toy: tops.toy.generics.derived.WIDTH.xpath: {NONE}: toy.sv has no such parameter"),
+    ('[toy]\nwhat = "a"\nlist = "toy.f"\ntops.toy = {size = {page = "toy.md", note = "a", lut4 = 1}}\n',
+     "toy: tops.toy.size: the key 'mhz' is missing"),
+    ('[toy]\nwhat = "a"\nlist = "toy.f"\ntops.toy = {size = {page = "none.md#a", note = "a", lut4 = 1, mhz = 1}}\n',
+     "toy: tops.toy.size.page: 'docs/none.md' does not exist"),
+    ('[toy]\nwhat = "a"\nlist = "toy.f"\ntops.toy = {size = {page = "toy.md", note = "a", lut4 = 1, mhz = 1, seeds = 0}}\n',
+     "toy: tops.toy.size: seeds: is less than 1"),
+    ('[toy]\nwhat = "a"\nlist = "toy.f"\ntops.toy = {size = {page = "toy.md", note = "a", lut4 = 1, mhz = 1, parameters = {NONE = 1}}}\n',
+     "toy: tops.toy.size.parameters.NONE: toy.sv has no such parameter"),
     ('[Toy]\nwhat = "a"\n', "Toy: a name begins with a small letter"),
     ('toy = 1\n', "toy: is no table"),
     ('[toy]\nwhat = \n', "Invalid value (at line 2, column 8)"),
@@ -95,7 +103,7 @@ RIGHT = ('[dsl-model]\nwhat = "a"\nline = "duplex"\n',
          'buses = [{name = "bus", kind = "wishbone", prefix = "wb_"}]\n')
 # What these files name.
 PLACES = {
-    "toy.f": "toy.sv\n", "gone.f": "none.sv\n", "lower.f": "-F none.f\n",
+    "docs/toy.md": "", "toy.f": "toy.sv\n", "gone.f": "none.sv\n", "lower.f": "-F none.f\n",
     "toy.sv": "module toy #(\n  parameter int unsigned WIDTH = 1  // bits\n) (\n  input logic clk_i\n);\nendmodule\n",
     "regmap/generated/a/a.ipxact.xml": "", "regmap/generated/b/b_regs_pkg.sv": "", "regmap/generated/c/c_regs_pkg.sv": "",
 }
@@ -115,6 +123,7 @@ switch = {MB4_TOY = "The simulator has the toy"}
 ice40 = true
 plain = true
 clocks = {host = ["wb_clk_i", 10]}
+size = {page = "README.md", note = "as it is", lut4 = 100, mhz = 50}
 buses = [{name = "bus", kind = "wishbone", prefix = "wb_"}]
 
 [toy.tops.toy_ip]
@@ -204,7 +213,7 @@ import shutil, sys
 from pathlib import Path
 sys.path[:0] = ["tools", "tools/synth", "tests/lint", "tests/package", "tests/mutation"]
 sys.argv = ["x", "--self-test"]
-import project, plain_verilog, ipxact, constraints, vhdl, vivado_ip, set_version, mutate, ipxact_test, vhdl_test
+import project, report, plain_verilog, ipxact, constraints, vhdl, vivado_ip, set_version, mutate, ipxact_test, vhdl_test
 modules = project.rtl_modules()
 def tell(what, known):
     print(what, "has the toy" if known else "LACKS THE TOY")
@@ -214,6 +223,7 @@ tell("netlist, every module", "toy_bus" in modules)
 tell("port widths", any(path.stem == "toy_regs_pkg" for path in project.rtl_packages()))
 tell("proofs", any("toy_bus" == path.stem for path in project.all_rtl_files()))
 tell("gates", "toy_gates" in project.all_of("gates"))
+tell("size and speed", "toy_bus" in report.SIBLINGS)
 tell("set_version", "openmb4-toy.core" in set_version.VERSION_COPIES)
 codes = {module: mutate.blank_comments(path.read_text()) for module, path in modules.items()}
 design = project.design("toy_run")
@@ -264,7 +274,7 @@ get_filename_component(MB4_ROOT "${CMAKE_CURRENT_LIST_DIR}" ABSOLUTE)
 execute_process(COMMAND python3 -B tools/masters.py --cmake OUTPUT_VARIABLE masters RESULT_VARIABLE status)
 cmake_language(EVAL CODE "${masters}")
 foreach(master IN LISTS MB4_MASTERS)
-  foreach(key LIST SWITCH TOPS ICE40 GATES MEASURED)
+  foreach(key LIST SWITCH TOPS ICE40 SIZE GATES MEASURED)
     message("${master} ${key} ${MB4_MASTER_${master}_${key}}")
   endforeach()
 endforeach()
@@ -297,7 +307,7 @@ def toy():
             (sys.executable, "-B", "tests/lint/check_masters.py"): r"(?m)^toy: block: .*\[\[block\]\] with room = \"toy\"$",
             (sys.executable, "-B", "tools/masters.py", "--master", "toy"): r"toy: gates: toy_gates\n",
             (sys.executable, "-B", "tests/package/check_core.py", "names"): r"openmb4-toy.core: toy\n",
-            ("cmake", "-P", "toy.cmake"): r"toy SWITCH MB4_TOY\ntoy TOPS toy_bus;toy_ip\ntoy ICE40 toy_bus\ntoy GATES toy_gates\n"
+            ("cmake", "-P", "toy.cmake"): r"toy SWITCH MB4_TOY\ntoy TOPS toy_bus;toy_ip\ntoy ICE40 toy_bus\ntoy SIZE toy_bus\ntoy GATES toy_gates\n"
                                           r"toy MEASURED toy_run\n",
             (sys.executable, "-B", "tests/mutation/run_mutants.py", "--master", "toy"): r"mutant_toy_run_toy_test is missing",
         }

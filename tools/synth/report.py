@@ -63,27 +63,8 @@ FAMILIES = {
 }
 
 
-class Sibling(NamedTuple):
-    """A master of one line with a bus."""
-    room: str
-    what: str                # on the page
-    most: int                # LUT4 of an iCE40
-    mhz: int                 # on an HX8K
-    parameters: dict = {}
-    flags: str = ""          # of synth_ice40
-    seeds: tuple = SEEDS
-    median: int = 0          # MHz of the seeds
-    up5k: bool = False       # its speed is on the page too
-
-
-SIBLINGS = {
-    "biss_spi": Sibling("axi", "[`biss_spi`](axi.md#biss_spi) with one channel and no extras; five seeds.", 600, 98, {}, "",
-                        (1, 2, 3, 4, 5), 105, True),
-    "biss_clb": Sibling("clb", "[`biss_clb`](clb.md) with its page of identity, interrupt and time.", 650, 100),
-    "biss_pru": Sibling("pru", "[`biss_pru`](pru.md) with a clock of 80 MHz.", 1100, 80, {"ClockHz": 80_000_000}),
-    "dsl_axil": Sibling("dsl", "[`dsl_axil`](dsl.md) with a bus clock of its own and, on iCE40, `synth_ice40 -abc2`; "
-                        "five seeds.", 2000, 75, {}, "-abc2", (1, 2, 3, 4, 5)),
-}
+# Small masters of one line with a bus, which have parts of their own: {top: its Top in masters.toml}.
+SIBLINGS = project.tops("size")
 
 AXI_DESIGNS = ((1, 0), (1, 1), (4, 0), (4, 1), (16, 0))   # channels, stream mode
 AXI_LARGE = 16  # takes long: one seed, and iCE40 only
@@ -93,7 +74,7 @@ def files(top):
     if top.startswith("biss_axi"):
         return project.rtl_files("axi") + [HERE / "tops" / "biss_axi_narrow.sv"]
     if top in SIBLINGS:
-        return project.rtl_files(SIBLINGS[top].room)
+        return project.listed(SIBLINGS[top].master.list)
     return project.rtl_files() + [HERE / "tops" / "mb4_parallel.sv"]
 
 
@@ -290,7 +271,7 @@ def axi(folder):
 
 def sibling_size(top, folder):
     """LUT4, flops, block RAMs of an iCE40; folder/top.json is the netlist."""
-    one = SIBLINGS[top]
+    one = SIBLINGS[top].size
     stat = synthesise("synth_ice40", top, folder, f"{one.flags} -json top.json", one.parameters)
     cells = stat["design"]["num_cells_by_type"]
     return cells.get("SB_LUT4", 0), count(cells, "^SB_DFF"), count(cells, "^SB_RAM40")
@@ -298,14 +279,14 @@ def sibling_size(top, folder):
 
 def sibling_speed(top, folder, device="HX8K"):
     """MHz of the core's clock with each seed, of the netlist in the folder."""
-    one = SIBLINGS[top]
-    return [route(top, folder, device, seed, one.mhz)["core"] for seed in one.seeds]
+    one = SIBLINGS[top].size
+    return [route(top, folder, device, seed, one.mhz)["core"] for seed in range(1, one.seeds + 1)]
 
 
 def sibling(top, folder):
     """The part of the page about a sibling."""
-    one, place = SIBLINGS[top], folder / top
-    lines = [f"## {top}", "", one.what, "",
+    one, place = SIBLINGS[top].size, folder / top
+    lines = [f"## {top}", "", f"[`{top}`]({one.page}) {one.note}.", "",
              "| LUT4 | flops | block RAM | HX8K clk_i / MHz | " + "UP5K clk_i / MHz | " * one.up5k +
              "ECP5 LUT | ECP5 flops | ECP5 block RAM | Xilinx 7 LUT | Xilinx 7 flops | Xilinx 7 block RAM |",
              "|---" * (10 + one.up5k) + "|"]
@@ -347,7 +328,7 @@ def ecp5(folder):
              "| top | core clock / MHz | host clock / MHz |", "|---" * 3 + "|"]
     designs = [*((top, top, {}) for top in TOPS),
                *((f"biss_axi, stream mode {mode}", "biss_axi_narrow", {"StreamMode": mode}) for mode in (0, 1)),
-               *((top, top, one.parameters) for top, one in SIBLINGS.items())]
+               *((name, name, top.size.parameters) for name, top in SIBLINGS.items())]
     for name, top, parameters in designs:
         place = folder / "ecp5_speed" / re.sub(r"\W+", "_", name)
         area("ECP5", top, place, parameters)

@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The size of a small master on iCE40 in LUT4 and flops, and its speed on an HX8K.
 
-  sibling_size.py TOP FOLDER [--check|--route]   TOP is a master of one line with a bus, FOLDER is for what the tools leave.
+  sibling_size.py TOP FOLDER [--check|--route]   TOP has `size` in masters.toml, FOLDER is for what the tools leave.
                                                  --check: the size against its limit; --route: also the speed
 """
 
@@ -26,9 +26,9 @@ def main():
     what.add_argument("--check", action="store_true")
     what.add_argument("--route", action="store_true")
     arguments = parser.parse_args()
-    top, one = arguments.top, report.SIBLINGS[arguments.top]
+    top, one = arguments.top, report.SIBLINGS[arguments.top].size
     luts, flops, rams = report.sibling_size(top, arguments.folder)
-    findings = [] if luts <= one.most else [f"{top}: {luts} LUT4, wanted {one.most} at most"]
+    findings = [] if luts <= one.lut4 else [f"{top}: {luts} LUT4, wanted {one.lut4} at most"]
     text = f"{top}: {luts} LUT4, {flops} flops, {rams} block RAM"
     if arguments.route:
         found = report.sibling_speed(top, arguments.folder)
