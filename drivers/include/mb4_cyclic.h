@@ -6,7 +6,8 @@
  * mb4_types.h and the generated mb4_regs.h, and no C++ compiler. There is no heap, static data,
  * callback or clock.
  *
- * A read is one or more plans. A plan holds SPI frames; the caller makes them, by DMA or otherwise:
+ * A read is one or more plans. A plan holds SPI frames; the caller makes them, by DMA or otherwise.
+ * read, word and slot are set up by mb4_word_set(), mb4_plan_memory() and mb4_cyclic_check():
  *
  *   mb4_cyclic_plan(&read, &plan, MB4_WITH_ALL);      // begins a read
  *   do {
@@ -16,13 +17,14 @@
  *   } while (code == MB4_MORE);
  *   if (code == MB4_OK) { mb4_slot_reading(&word, &slot, &reading, MB4_WITH_ALL); ... }
  *
+ * Of several slaves each has a code of its own, in its slot (mb4_cyclic_finish()).
  * MB4_SLAVE_ERROR is a new word too, but its nE is 0: the encoder says that its position is not to
  * be trusted. mb4_slot_reading() then gives what it sent, for a message or a log.
  *
- * With `chain` set, a read is one plan (table 69 of the datasheet): 0x07 HOLDBANK, 0x09 or 0x03
- * data of one slave or several, 0x05 status, 0x02 SVALID = 0 and HOLDBANK = 0. Only a bad word
- * needs another plan. Without `chain` the 0x02 is a plan of its own, and a bad word needs one frame
- * more.
+ * With `read.chain` set, a read is one plan of these SPI opcodes (table 69 of the datasheet): 0x07
+ * HOLDBANK, 0x09 or 0x03 data of one slave or several, 0x05 status, 0x02 SVALID = 0 and
+ * HOLDBANK = 0. Only a bad word needs another plan. Without it the 0x02 is a plan of its own, and a
+ * bad word needs one SPI frame more than a good one.
  *
  * No function may be interrupted by another one on the same object.
  */

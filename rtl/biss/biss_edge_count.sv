@@ -8,15 +8,16 @@
 //   begin_i      sets the need to that of the protocol (BiSS C 5, BiSS B 4, SSI 1), plus mo_busy on
 //                a line with actuators
 //   len_valid_i  adds the bits of a word, len_last_i + 1 (not in the clock of begin_i)
-//   wait_i       adds a processing clock (not in the clock of begin_i): the next edge is free
+//   wait_i       adds a processing clock (not in the clock of begin_i): the next edge does not
+//                count as needed
 //   rise_i       takes one edge away
 //
 // Latency: a word counts from the second clock after len_valid_i; in between none_left_o and
 // one_left_o are 0. A processing clock counts with the next edge; until then none_left_o and
 // one_left_o leave it out, and the caller must not look (biss_frame looks after the start bit).
-// Between two processing clocks there is an edge. mo_busy_i counts from the second clock after
-// begin_i. All outputs except two_edges_next_o are ready early in the clock, because they decide
-// what MA does next.
+// The caller gives no second wait_i without a rise_i between. mo_busy_i counts from the second
+// clock after begin_i. All outputs except two_edges_next_o are ready early in the clock, because
+// they decide what MA does next.
 //
 // Misuse: ssi_i with bus_i counts one edge too many. MA may make one edge more than needed before a
 // word is told. The count keeps this edge (need_q = -2) and subtracts it from the word. The count
@@ -45,7 +46,7 @@ module biss_edge_count #(
   output logic       two_edges_o,      // two edges have been sent
   output logic       two_edges_next_o, // two edges with the one of this clock
   output logic       none_left_o,
-  output logic       one_left_o    // one edge is left, or none
+  output logic       one_left_o    // at most one edge is left
 );
 
   // The longest frame: 5 edges, mo_busy_i, and words with stop bit and CRC.
@@ -56,7 +57,7 @@ module biss_edge_count #(
   logic [1:0]          rises_q;
   logic signed [W-1:0] need_d;
   logic signed [W-1:0] need_q;     // edges needed minus 1; -2: one too many was sent
-  logic signed [W-1:0] sum;        // need_q behind this clock, without begin_i
+  logic signed [W-1:0] sum;        // need_q after this clock, without begin_i
   logic                word_d;
   logic                word_q;     // one clock after begin_i and len_valid_i: more_q is added
   logic [7:0]          more_d;

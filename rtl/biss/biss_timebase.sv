@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Time base of all lines: half MA periods, and the four sampling points of each MA period.
+// Time base of all lines: half MA periods, and the sampling points, two in each half period.
 //
 // Clock domain: core, rising edge. restart_i takes last_i and tens_i for everything that follows
 // and begins a half period in which MA is high. A half period has last_i + 1 steps. A step is one
@@ -34,7 +34,7 @@ module biss_timebase #(
   output logic             sample_half_o  // MA level of the half period of the points
 );
 
-  localparam logic [3:0] MIDDLE = 4'd4;   // clock before the middle of a long step
+  localparam logic [3:0] MIDDLE = 4'd4;   // last clock before the middle of a long step
   localparam logic [3:0] END    = 4'd9;   // its last clock
 
   logic [LastW:0]   len_q;   // of this half period: tens_i, last_i
@@ -73,7 +73,7 @@ module biss_timebase #(
   end
 
   // The middle is the end of the first half of the clocks. With an odd number of short steps (last
-  // is even) it lies half a clock later than the last whole clock of this half: b_neg tells so.
+  // is even) it lies half a clock after the end of the last whole clock before it: b_neg tells so.
   assign middle = run_i && (tens || last[0] ? step_q : step_d) == last >> 1 &&
                   (!tens || clock_q == (last[0] ? END : MIDDLE));
 

@@ -10,8 +10,8 @@
 // count of the steps taken. It follows two clocks after the capture, when the receiver has acted.
 //
 // Misuse: count_i must be at most two steps ahead of ack_o, as the sender sees it; steps beyond
-// that are lost. With two steps on their way the sender may still replace its data without a
-// further step: the second pulse, which is still to come, captures the new data.
+// that are lost. While two steps are on their way, the sender may change its data without a third
+// step: only the second pulse has to see them.
 // Constraint: data held by the sender need a maximum delay of one clk_i period; false path to the
 // first flops.
 

@@ -6,7 +6,7 @@
 //
 // Clock domain: core.
 // Latency: a written byte arrives 2..3 clocks after its last bit. The frame that it asks for starts
-// one clock later at the earliest. busy rises before the count reaches the host half. A frame ends
+// one clock later at the earliest. busy rises before instr_o.ack tells the host half. A frame ends
 // two clocks after its last bit (frame_end). Its result comes one clock before this end, and the
 // banks switch one clock after it (mb4_bank_ctrl).
 //
@@ -17,7 +17,8 @@
 // - INIT waits for the slaves' timeout of the frame before it, but not without limit (WAIT).
 // - A BREAK that cuts something, and a reset, leave slaves that may still be in a frame, where SL
 //   tells nothing. INIT then waits until MA has rested and SL has been 1 on the lines in use for
-//   1024 clocks, or SL has been 0 for 2048 clocks (decision 46), unless it drives no line.
+//   1024 clocks, or for 2048 clocks in which they did not rest (decision 46). An INIT that drives
+//   no line does not wait.
 //
 // Misuse and errors:
 //
@@ -26,9 +27,9 @@
 // - A frame is due while HOLDBANK holds back a switch: the frame runs into the other bank and the
 //   switch is lost (mb4_bank_ctrl). With QUIRK_AGSERR_ON_HOLDBANK there is no frame,
 //   SWBANKFAIL = 1 and nAGSERR = 0 (decision 15).
-// - A control communication that cannot run ends at once (decision 37). So does INIT with
-//   REGVERS = 0 without BissB. A BiSS B access that waits for its automatic frame ends too when its
-//   lines or REGVERS are changed.
+// - A control communication that cannot run ends at once (decision 37). A core without BissB ends
+//   INIT with REGVERS = 0 at once too. A BiSS B access that waits for its automatic frame ends too
+//   when its lines or REGVERS are changed.
 // - A BiSS B access without AGS cannot begin while SL is low: the first request after the limit of
 //   the watchdog ends it (decision 42). A BiSS C access begins even while SL is low;
 //   biss_control_frame ends it.
@@ -67,7 +68,7 @@ module mb4_sequencer #(
   // banks
   input  mb4_pkg::mem_state_t mem_i,
   output mb4_pkg::bank_cmd_t bank_o,
-  output logic       frame_done_o,    // a frame ends, unless BREAK comes with its end
+  output logic       frame_done_o,    // a frame ends; also 1 if BREAK comes in this clock
   // status
   output mb4_pkg::frame_flags_t flags_o,
   output logic       init_clear_o,    // INIT begins
@@ -109,11 +110,12 @@ module mb4_sequencer #(
 
   // INIT does not test SL (page 33), but the slaves need their timeout before and after it. So SL
   // has 1024 MA periods to return to 1. The longest timeout in the field has 400 (40 us, 10 MHz).
-  localparam logic [11:0] WAIT = 12'hFFF;  // its highest bit counts with cut_q: 0 = lines rest
+  localparam logic [11:0] WAIT = 12'hFFF;  // with cut_q bit 11 is a flag: 0 = lines rest
 
   // ---- inputs -----------------------------------------------------------------------------------
 
-  // ack comes two clocks after new_q. REGEND has fallen by then.
+  // ack comes two clocks after new_q. REGEND has fallen by then: a host that sees ack does not read
+  // the REGEND of the access before.
   enc_count_rx u_written (
     .clk_i, .rst_ni, .count_i (instr_i.count), .pulse_o (written), .ack_o (ack)
   );
@@ -138,7 +140,8 @@ module mb4_sequencer #(
                     (!held_q.ags || request_i.infinite);
   assign begins   = new_q && kind_i.in_use != 2'b00 && !held_q.init && state_q != INIT_TIMEOUT;
   assign control_begin_o  = begins && kind_i.is_control && state_q != INIT && !stale_i;
-  // A new instruction clears REGEND at once. After a stall held_q is still the old instruction.
+  // A new instruction clears REGEND at once. After a stall held_q is still the old instruction, so
+  // control_stalled_i excludes it.
   assign register_begin_o = (begins && (kind_i.is_register ||
                                         (kind_i.is_control && stale_i && !control_stalled_i))) ||
                             (new_q && kind_i.is_void && !void_o);
@@ -148,7 +151,7 @@ module mb4_sequencer #(
   assign reduced_d   = start ? control_start_i &&
                                  held_q.instr == mb4_regs_pkg::INSTR_CONTROL_REDUCED
                                : reduced_q;
-  // With AGS = 1 new_q falls in IDLE, and INSTR alone keeps the request.
+  // With AGS = 1 new_q falls in IDLE, so awaits_q remembers the request.
   assign awaits_d    = (new_q ? kind_i.is_register && held_q.ags && !stale_i : awaits_q) &&
                        !(written || start || void_o);
 
@@ -161,8 +164,8 @@ module mb4_sequencer #(
 
   // The cases below decide the same (StartAsDecided_A). start and init stand apart, because all
   // lines wait for them late in the clock: of the lines they take all_idle and SL, nothing else.
-  // While all lines are idle each request by GETSENS is due, and a line in use whose SL is low
-  // lets no frame begin.
+  // While all lines are idle each request by GETSENS is due, so request_i.asks stands for
+  // request_i.due here; and a line in use whose SL is low lets no frame begin.
   assign init        = all_idle && state_q == IDLE && held_q.init && !cut_q &&
                        kind_i.init_use != 2'b00 && (BissB || regvers_i);
   assign start       = all_idle && state_q == IDLE && !(written && asked.brk) &&
@@ -372,8 +375,8 @@ module mb4_sequencer #(
   assign flags_o.bank_fail = bank_fail;
 
   // runs has the value of state_d != IDLE, computed without the last bit of a frame and without SL,
-  // which come late in the clock and do not end a frame. flags_o.busy needs it: with AGS = 1 an
-  // INSTR asks for no frame, unless FREQAGS is AGSINFINITE.
+  // which come late in the clock: the last bit leads to FRAME_DONE, not to IDLE, and SL only delays
+  // a start.
   assign returned = (use_q & ~idle) == 2'b00 || waited;
   assign runs     = start || (!(written && asked.brk) &&
                               (state_q == FRAME || state_q == INIT ||

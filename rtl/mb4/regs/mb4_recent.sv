@@ -6,10 +6,10 @@
 // addresses are kept, the newest first. An address includes the host's bank of SCDATA, so a switch
 // of the banks hides no byte and shows none of the other bank.
 //
-// The same memory holds the registers of mb4_kept.
+// The memory of these bytes also holds the registers of mb4_kept.
 //
 // Clock domains: host; writes in wr_clk_i, reads in rd_clk_i. These are one clock, or two strobes
-// of which one rests while the other has edges.
+// of the host, of which only one has edges at a time.
 // Latency: hit_o and data_o are valid after the edge with host_i.rd_en, until the next read.
 //
 // An entry ends when the core has taken its byte (enc_posted); the core's memory answers from then
@@ -19,10 +19,10 @@
 // - empty_i was 1 at the last edge of wr_clk_i. Then only the byte written with this edge can still
 //   be on its way.
 // - marked_i = mark_o: the core has taken all bytes written before the last change of mark_o.
-//   mark_o changes with an edge of wr_clk_i, after marked_i has followed its change before.
+//   mark_o changes with an edge of wr_clk_i, but not before marked_i has followed its last change.
 //
-// Misuse: a read at the edge that writes the same byte is undefined. An address that is older than
-// the four reads what the core's memory holds. The host may write so fast that mark_o changes
+// Misuse: a read at the edge that writes the same byte is undefined. The read of a fifth, older
+// address gives what the core's memory holds. The host may write so fast that mark_o changes
 // seldom: with less than 8 clocks of the core between two writes, a byte written behind the last
 // change of mark_o may answer from here until the core has taken the last byte of this sequence.
 // Features tells which addresses the core has; no other one is kept.
@@ -48,7 +48,7 @@ module mb4_recent #(
   localparam bit BANKS   = Features[mb4_pkg::TWO_BANKS_LSB];
   localparam logic [7:0] PRESENT = mb4_pkg::channels(Features[mb4_pkg::TWO_LINES_LSB],
                                                      Features[mb4_pkg::SLAVES_LSB +: 4]);
-  // Bits of a key that are not 0 in the keys of all addresses that the core has.
+  // Bits of a key that are 1 for at least one address that the core has.
   localparam logic [7:0] VARIES = {CONTROL, BANKS, BANKS || CONTROL || PRESENT[7:4] != 4'h0,
                                    CONTROL || {PRESENT[7:6], PRESENT[3:2]} != 4'h0,
                                    CONTROL || (PRESENT & 8'hAA) != 8'h00, 3'b111};
@@ -86,7 +86,7 @@ module mb4_recent #(
   logic [3:0]  rd_match;  // without bit 0 of the address
   logic [3:0]  odd;
   logic [1:0]  kept_hits; // registers at the odd and at the even address
-  // At the odd and at the even address. Kept: synthesis does not know that bit 0 comes late.
+  // At the odd and at the even address. keep: synthesis would compare with bit 0, which comes late.
   (* keep *) logic [1:0] hits;
   logic [3:0]  move;      // entry takes the address of its newer neighbour
 
