@@ -26,7 +26,7 @@ UNITS = ("clock", "frame", "byte")
 WORKLOADS = {"A": (1, 3, ("clock",)), "B": (2, 6, ("clock",)), "C": (2, 22, ("frame",)),
              "D": (1, 3, ("byte",)), "E": (1, 3, ("frame", "byte")), "F": (5, 25, ("frame",)),
              "G": (1, 2, ("frame",)), "H": (1, 3, ("clock",)), "I": (1, 3, ("clock",)),
-             "J": (1, 3, ("clock",))}
+             "J": (1, 3, ("clock",)), "K": (1, 5, ("clock",))}
 RUN_FRAMES = (10, 60)  # of `mb4sim run`
 
 

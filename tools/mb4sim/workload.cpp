@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "workload.hpp"
 
+#include <algorithm>
 #include <vector>
 
 #include "masters/mb4/mb4_workload.hpp"
@@ -28,6 +29,7 @@ std::span<const WorkloadInfo> workloads() {
 #if MB4SIM_WITH_DSL
     add(dsl_workloads());
 #endif
+    std::ranges::sort(found, {}, &WorkloadInfo::letter);
     return found;
   }();
   return all;

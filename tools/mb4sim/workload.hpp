@@ -50,9 +50,11 @@ struct WorkloadInfo {
 // F: an interrupt reads automatic frames at 4 kHz (Automatic::poll_slave()).
 // G: a simulator is made, configured and has read its first frame, again and again.
 // E, F and G replay recorded SPI bytes without the driver; SCLK is 10 MHz.
-// A to G: the iC-MB4 (masters/mb4/mb4_workload.hpp) with f_CLK = 20 MHz.
+// K: A with f_MA = 1 MHz.
+// A to G, K: the iC-MB4 (masters/mb4/mb4_workload.hpp) with f_CLK = 20 MHz.
 // H, I: biss_axi with 1 and with 4 encoders (masters/axi/axi_workload.hpp), 100 MHz.
 // J: dsl_axil with an encoder (masters/dsl/dsl_workload.hpp), 75 MHz.
+// In the order of their letters.
 std::span<const WorkloadInfo> workloads();
 
 }  // namespace mb4::tool

@@ -286,7 +286,7 @@ class Cli(CliTest):
         self.assertEqual(result.returncode, 0, result.stderr)
         report = json.loads(result.stdout)
         rates = {rate["workload"]: rate for rate in report["rates"]}
-        self.assertEqual(list(rates), list("ABCDEFGHIJ"))
+        self.assertEqual(list(rates), list("ABCDEFGHIJK"))
         for rate in rates.values():
             self.assertGreater(rate["clk_per_s"], 10_000)
             self.assertLessEqual(rate["slowest"], rate["clk_per_s"])
@@ -297,6 +297,8 @@ class Cli(CliTest):
         self.assertAlmostEqual(rates["A"]["frames"] * 4.3 / time_us["A"], 1, delta=0.15)
         self.assertAlmostEqual(rates["B"]["frames"] / 8 * 14.4 / time_us["B"], 1, delta=0.15)
         self.assertAlmostEqual(rates["C"]["frames"], time_us["C"] / 1000, delta=1.5)
+        # K: 40 periods of 1 us.
+        self.assertAlmostEqual(rates["K"]["frames"] * 40 / time_us["K"], 1, delta=0.15)
         # H, I: 39 periods of MA at 10 MHz (two edges, start, CDS, 28 bits, CRC, timeout), 0.05 us a cable
         # of 5 m, and up to 1 us until the next sample clock; four encoders in I.
         for letter, encoders in (("H", 1), ("I", 4)):

@@ -26,7 +26,7 @@ void add_bench(CLI::App& app, Action& action) {
   std::shared_ptr<BenchOptions> options;
   CLI::App& bench = *add_command(app, action, "bench", "Measure how fast this machine simulates",
                                  &bench_command, options);
-  bench.add_option("--workload", options->workloads, "Which of A to J, as in AB (default all)")
+  bench.add_option("--workload", options->workloads, "Which of A to K, as in AB (default all)")
       ->type_name("LETTERS");
   bench.add_option("--repeats", options->repeats, "Repeats of which the median counts (default 5)")
       ->type_name("N")

@@ -303,6 +303,11 @@ constexpr WorkloadInfo kWorkloads[] = {
      []() -> std::unique_ptr<Workload> { return std::make_unique<Firmware>(kReadAutomatic); }},
     {'G', "start-up: a new simulator, configuration, first frame",
      []() -> std::unique_ptr<Workload> { return std::make_unique<StartUp>(); }},
+    {'K', "1 slave of 26 bits, AGSMIN, MA 1 MHz",
+     []() -> std::unique_ptr<Workload> {
+       return std::make_unique<Bench>("[host]\nma_hz = 1_000_000\n" + channel_of('1', 1),
+                                      Bench::kBackToBack);
+     }},
 };
 
 }  // namespace
