@@ -44,7 +44,7 @@ def libraries(package):
         sys.exit(f"the other Verilator was not taken:\n{text}")
     # Not the environment of above: a build that configures again has to know it.
     text = call(CMAKE, "--build", FOLDER, "--target", "mb4sim_core")
-    header = Path(FOLDER, "sim", "parts", "fast", "Vmb4_chip_edge.hpp").read_text(encoding="utf-8")
+    header = Path(FOLDER, "sim", "parts", "one_line", "Vmb4_chip_edge.hpp").read_text(encoding="utf-8")
     if header != "#define MODEL_RUNS_WHOLE\n":
         sys.exit("the model of an unknown Verilator is taken for one of 5.006")
     return version[1]

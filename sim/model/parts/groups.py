@@ -9,7 +9,6 @@ from graphlib import CycleError, TopologicalSorter
 
 from generated_model import NotUnderstood
 
-BUNDLE = 3000  # characters of C++ that one flag controls
 KEY_BITS = 3
 
 
@@ -42,11 +41,11 @@ class Part:
     place `flag` of a table. `when`: they run only after one of these events (bits); `always`: then
     they run if the clock has had an edge."""
 
-    def __init__(self, groups, flag=0, bits=0, key=(), when=0, always=False, rare=False):
+    def __init__(self, groups, flag=0, bits=0, key=(), when=0, always=False):
         self.rows = [row for group in groups for row in group.rows]
         self.name = groups[0].name if groups else ""
         self.flag, self.bits, self.key = flag, bits, key
-        self.when, self.always, self.rare = when, always, rare
+        self.when, self.always = when, always
         self.reads = inputs(self.rows)
         self.looks = {look for look in looks(self.rows) if look[0] not in key}
         self.writes = set().union(*(row.writes for row in self.rows))
@@ -179,6 +178,8 @@ class Kinds:
     """Decides the kind of part of a group. Groups of one kind read the same fast variables, or they
     have work about equally often."""
 
+    bundle = 1200  # characters of C++ that one flag controls
+
     def __init__(self, busy, widths):
         self.busy, self.widths = busy, widths
 
@@ -196,10 +197,6 @@ class Kinds:
             return None
         return tuple(key), group.module
 
-    @staticmethod
-    def rare(kind):
-        return kind in (((), "seldom"), ((), ""))
-
 
 class HostKinds:
     """The same for edges of host pins. `events` has the bits of the events of each function. A
@@ -207,10 +204,7 @@ class HostKinds:
     of the clock itself computes what it writes, and what reads this without a clock."""
 
     widths = {}
-
-    @staticmethod
-    def rare(_):
-        return True
+    bundle = 30000  # few, as an edge of a pin changes much of what a byte is made of
 
     def __init__(self, events, by_clock):
         self.events, self.by_clock = events, by_clock
@@ -246,9 +240,8 @@ def parts_of(groups, kinds, count, flags=0):
         bundle = []
         for group in schedule.run(kind, kinds) + [None]:
             if bundle and (group is None or count or
-                           sum(one.size for one in bundle) + group.size > BUNDLE):
-                found.append(Part(bundle, keyed if key else flags, bits, key, when, always,
-                                  kinds.rare(kind)))
+                           sum(one.size for one in bundle) + group.size > kinds.bundle):
+                found.append(Part(bundle, keyed if key else flags, bits, key, when, always))
                 keyed, flags = keyed + (key != ()), flags + (key == ())
                 bundle = []
             bundle.append(group)

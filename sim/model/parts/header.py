@@ -12,10 +12,16 @@ from generated_model import NotUnderstood, branches
 from groups import KEY_BITS, Part, combinational, look_name, looks
 
 CHECKED = 13  # one of so many rising edges has a check
+
+
+def one_flag(part):
+    return part.bits != 0 and not part.key
+
+
 # One test leaves out all parts that have one of these in common: the event, runs of flags.
 GATES = (lambda part: part.when,
-         lambda part: part.rare and part.flag // 64 + 1,
-         lambda part: part.rare and part.flag // 8 + 1)
+         lambda part: one_flag(part) and part.flag // 64 + 1,
+         lambda part: one_flag(part) and part.flag // 8 + 1)
 
 
 def inside_out(text):

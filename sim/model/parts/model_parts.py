@@ -4,7 +4,7 @@
 """Splits the edges of a Verilated model's clock into parts, of which only those run whose inputs
 have changed.
 
-  model_parts.py MODEL.toml FOLDER OUTPUT [--busy COUNTS | --count] [--check]
+  model_parts.py MODEL.toml FOLDER OUTPUT [--busy COUNTS | --count] [--check] [--namespace NAME]
      MODEL.toml  describes the model (description.py)
      FOLDER      Verilator's output
      OUTPUT      a header; it defines MODEL_RUNS_WHOLE if this program does not understand the model
@@ -14,6 +14,7 @@ have changed.
                  header prints the counts when it ends
      --check     at some edges the model also computes the parts whose flags are not set, and after
                  some edges of host pins it runs eval(); the program ends if a variable differs
+     --namespace in the place of that of MODEL.toml, for a second header of a model
 
 The header has rise() and fall() for the edges of the clock, host() for edges of host pins, and
 `Kept` with the flags: tests/unit/model/parts/parts_sample.cpp shows their use.
@@ -168,8 +169,10 @@ def main():
     arguments.add_argument("--busy", type=Path)
     arguments.add_argument("--count", action="store_true")
     arguments.add_argument("--check", action="store_true")
+    arguments.add_argument("--namespace")
     given = arguments.parse_args()
     described = description.read(given.model)
+    described.namespace = given.namespace or described.namespace
     busy = busy_of(given.busy.read_text(encoding="utf-8")) if given.busy else Busy()
     try:
         text = made(described, given.folder, busy, given.count, given.check)

@@ -26,11 +26,11 @@ constexpr unsigned kChannels = 3, kEyeBits = mb4test::places::axi_pkg::eye_t::kA
 struct Shown {
   bool valid = false;
   unsigned width = 0, last = 0, smallest = kNone;
+  unsigned point() const { return last - width / 2; }
   std::uint32_t word() const {
     if (!valid) return 1U << 30U;  // used
-    const unsigned point = last - width / 2;
-    const unsigned before = point - (last + 1 - width), after = last - point;
-    return 1U << 31U | 1U << 30U | after << 25U | before << 21U | smallest << 16U | point << 8U |
+    const unsigned before = point() - (last + 1 - width), after = last - point();
+    return 1U << 31U | 1U << 30U | after << 25U | before << 21U | smallest << 16U | point() << 8U |
            width;
   }
 };
@@ -53,7 +53,7 @@ TEST(AxiEyeBlock, FramesAtRandom_AreShownWithTheirSmallestAndAlarms) {
     for (unsigned c = 0; c < kChannels; ++c) {
       const std::uint64_t eye = eye_t::kValid(shown[c].valid) | eye_t::kUsed(1) |
                                 eye_t::kWidth(shown[c].valid ? shown[c].width : dice.below(21)) |
-                                eye_t::kLast(shown[c].valid ? shown[c].last : dice.below(20));
+                                eye_t::kPoint(shown[c].valid ? shown[c].point() : dice.below(20));
       eyes |= eye << (c * kEyeBits);
     }
     m.eyes_i = eyes;

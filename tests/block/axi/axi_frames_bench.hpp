@@ -25,7 +25,7 @@ namespace mb4test {
 
 struct Eye {
   bool valid = false;
-  unsigned width = 0, last = 0;
+  unsigned width = 0, point = 0;
   bool operator==(const Eye&) const = default;
 };
 
@@ -99,7 +99,7 @@ class AxiFrames {
     using namespace places::axi_pkg::eye_t;
     if (kValid.of(m.eye_o) == 0) return {};  // the numbers are older
     return {kValid.of(m.eye_o) != 0, static_cast<unsigned>(kWidth.of(m.eye_o)),
-            static_cast<unsigned>(kLast.of(m.eye_o))};
+            static_cast<unsigned>(kPoint.of(m.eye_o))};
   }
   // The eye by the samples of the frame.
   Eye expected() const {
@@ -118,7 +118,7 @@ class AxiFrames {
     const std::size_t end = rise + std::size_t{period} * (slave.payload.size() + 1);
     if (end >= levels.size()) return {};
     const Gap gap = widest_gap(levels, rise, end, period);
-    return {true, gap.width, gap.last};
+    return {true, gap.width, gap.last - gap.width / 2};
   }
 
   void clock() {

@@ -18,6 +18,10 @@
 // A chip is at rest if a clock leaves every bit of it unchanged. Then any number of clocks leaves
 // it unchanged. Only the time to the next frame (AGS) may move, and this class advances it.
 //
+// There are three ways to run such an edge (chip_edges.hpp), of which one is in use: for MA slow
+// against the clock, for a second line that rests, and for all the rest. A change of the way
+// computes the whole chip once, so it comes seldom.
+//
 // This relies on how Verilator 5.006 (Debian 12) writes a model. With another version fast_chip.cpp
 // uses PlainSteps. tests/chip/random/lockstep_test.cpp compares both.
 #ifndef MB4SIM_MB4_DIRECT_STEPS_HPP_
@@ -26,23 +30,27 @@
 #include <Vmb4_chip.h>
 #include <Vmb4_chip___024root.h>
 
-#include <Vmb4_chip_edge.hpp>
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <utility>
 
+#include "chip_edges.hpp"
 #include "sim/model/model_rest.hpp"
 
 namespace mb4::sim {
 
 class DirectSteps {
  public:
+  // This Verilator's model can be taken apart.
+  static bool possible() { return edges_of_one_line() != nullptr; }
+
   // Any inputs have changed.
   void inputs(Vmb4_chip& model) {
     model.eval();
     late_ = false;
-    kept_.all(*model.rootp);
+    edges_->all(*model.rootp);
   }
   // Pins of the host have changed. Returns false if no output has changed, and nothing that the
   // next edge of CLK reads.
@@ -52,7 +60,7 @@ class DirectSteps {
       return true;
     }
     take_sl(*model.rootp);
-    return edge::host(model.rootp, kept_);
+    return edges_->host(*model.rootp);
   }
   // SL1 or SL2 has changed and no other input. SL is not a clock, and no output depends on it
   // before the next clock edge. So the change waits for that edge.
@@ -75,9 +83,10 @@ class DirectSteps {
     }
     take_sl(root);
     if (level) {
-      edge::rise(&root, kept_);
+      if (--to_choice_ == 0) choose(root);
+      edges_->rise(root);
     } else {
-      edge::fall(&root, kept_);
+      edges_->fall(root);
     }
     set_clock(root, level);
   }
@@ -128,7 +137,7 @@ class DirectSteps {
     const std::uint64_t after = elapsed(root) + clocks;
     root.*kStep = static_cast<CData>(after / step_clocks(root));
     root.*kPre = static_cast<SData>(after % step_clocks(root));
-    edge::time_has_changed(kept_);
+    edges_->time_passed();
     return clocks;
   }
 
@@ -136,6 +145,9 @@ class DirectSteps {
   using Root = Vmb4_chip___024root;
 
   static constexpr std::uint64_t kMargin = 4;
+  static constexpr unsigned kSlow = 3;      // clocks of half an MA period
+  static constexpr unsigned kChoice = 512;  // clocks between two choices
+  static constexpr unsigned kAlone = 16;    // choices without line 2 until it counts as resting
 
   static constexpr auto kSampled1 =
       &Root::
@@ -153,9 +165,22 @@ class DirectSteps {
 
   // Computes what depends on SL, if it has changed.
   void take_sl(Root& root) {
-    if (!std::exchange(late_, false)) return;
-    edge::follow_sl(&root, kept_);
-    edge::sl_has_changed(kept_);
+    if (std::exchange(late_, false)) edges_->sl(root);
+  }
+  // Takes the edges that fit what runs.
+  [[gnu::noinline]] void choose(const Root& root) {
+    to_choice_ = kChoice;
+    const unsigned len = root.mb4_chip__DOT__u_engine__DOT__u_lines__DOT__u_timebase__DOT__len_q;
+    const unsigned clocks = ((len & 0xFU) + 1) * ((len & 0x10U) != 0 ? 10 : 1);
+    const bool second =
+        (root.mb4_chip__DOT__u_engine__DOT__u_control__DOT__u_sequencer__DOT__use_q & 2U) != 0;
+    alone_ = second ? 0 : std::min(alone_ + 1, kAlone);
+    ChipEdges* const wanted = clocks >= kSlow    ? slow_ma_.get()
+                              : alone_ == kAlone ? one_line_.get()
+                                                 : both_lines_.get();
+    if (wanted == edges_) return;
+    edges_ = wanted;
+    edges_->all(root);
   }
   // CLK and the system clock. eval() must not find an edge that has been handled.
   static void set_clock(Root& root, bool level) {
@@ -183,8 +208,13 @@ class DirectSteps {
   }
   static std::uint64_t elapsed(const Root& r) { return r.*kStep * step_clocks(r) + r.*kPre; }
 
-  edge::Kept kept_;
-  bool late_ = false;  // SL has changed
+  const std::unique_ptr<ChipEdges> one_line_ = edges_of_one_line();
+  const std::unique_ptr<ChipEdges> both_lines_ = edges_of_both_lines();
+  const std::unique_ptr<ChipEdges> slow_ma_ = edges_of_slow_ma();
+  ChipEdges* edges_ = one_line_.get();
+  unsigned alone_ = kAlone;       // choices since a frame used line 2
+  unsigned to_choice_ = kChoice;  // clocks
+  bool late_ = false;             // SL has changed
   bool counting_ = false;
   StateMark<Root> before_;  // a rising edge of CLK
 };

@@ -5,34 +5,16 @@
 #include <Vmb4_chip___024root.h>
 
 #include "chip_signals.hpp"
-#include "plain_steps.hpp"
-#include "verilated_chip.hpp"
-
-// Some packages of Verilator leave this number empty.
-#if VERILATOR_VERSION_INTEGER + 0 == 5006000
-#include <Vmb4_chip_edge.hpp>
-#ifndef MODEL_RUNS_WHOLE
-#define MB4_DIRECT_STEPS
 #include "direct_steps.hpp"
 #include "sim/model/whole_models.hpp"
-#endif
-#endif
+#include "verilated_chip.hpp"
 
 namespace mb4::sim {
-namespace {
-
-#ifdef MB4_DIRECT_STEPS
-using Steps = DirectSteps;
-#else
-using Steps = PlainSteps<Vmb4_chip>;
-const WholeModel kChipIsWhole("iC-MB4");
-#endif
-
-}  // namespace
 
 std::unique_ptr<ChipModel> make_fast_chip(const ChipConfig& config, std::uint64_t seed) {
-  return std::make_unique<VerilatedChip<Vmb4_chip, NoTrace, ChipSignals<Vmb4_chip>, Steps>>(
-      config, seed, TraceFile{});
+  if (!DirectSteps::possible()) return make_plain_chip(config, seed);
+  using Chip = VerilatedChip<Vmb4_chip, NoTrace, ChipSignals<Vmb4_chip>, DirectSteps>;
+  return std::make_unique<Chip>(config, seed, TraceFile{});
 }
 
 }  // namespace mb4::sim
