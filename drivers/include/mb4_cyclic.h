@@ -108,7 +108,11 @@ enum {
   MB4_PLAN_FRAMES = 18,  /* most frames of a plan, with eight slaves */
   MB4_PLAN_LONGEST = 25, /* bytes of the longest frame, unless mb4_cyclic.wide asks for more */
   MB4_MORE = 255,        /* of mb4_cyclic_finish(): make the frames of the plan */
-  MB4_NOT_STORED = 0xFF  /* a byte of rx that the bus has not stored */
+  MB4_NOT_STORED = 0xFF, /* a byte of rx that the bus has not stored */
+  /* FULL: MOSI while data is read. It is what a disturbed opcode writes (0x03 and 0x02, 0x0B), so
+   * it is not 0, which may pass. 0x03 may become 0x07 too: then it goes to 0xF5, where it forces no
+   * line and keeps ENTEST = 0. */
+  MB4_CYCLIC_FILLER = 0xA0
 };
 
 /* Words of 32 bits for tx, and for rx, of a read of `slaves` slaves: a size of an array. */
@@ -458,9 +462,8 @@ static inline bool mb4_word_in(const mb4_word *word, uint16_t flags, uint8_t wit
  * between them cost no more than another opcode and address. */
 MB4_APART void mb4_cyclic_add_data(const mb4_cyclic *read, mb4_plan *plan, uint16_t flags,
                                    uint8_t with) {
-  /* With FULL the filler is what a disturbed opcode would write: not zeros, which may pass. */
-  const uint8_t filler =
-      (with & MB4_WITH_FULL) != 0 && read->spi_check >= MB4_SPI_CHECK_FULL ? 0x5A : 0;
+  const bool full = (with & MB4_WITH_FULL) != 0 && read->spi_check >= MB4_SPI_CHECK_FULL;
+  const uint8_t filler = full ? MB4_CYCLIC_FILLER : 0;
   const uint8_t limit = read->wide ? 255 : MB4_PLAN_LONGEST;
   const mb4_word *word = read->words;
   const mb4_word *last = word + mb4_cyclic_count(read, with);

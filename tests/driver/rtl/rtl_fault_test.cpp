@@ -323,6 +323,54 @@ TEST(DriverFaultRelease, SwapWhileTheBankIsHeld_NeverAnOldPosition) {
   }
 }
 
+// 0x03 and 0x07 differ in one bit: the reading of a word is an instruction then, and its second
+// byte on MOSI goes to 0xF5, where it must not force MA. Without a CRC nothing would tell that the
+// words behind it are none of the encoder.
+TEST(DriverFaultOpcode, ReadThatIsAnInstruction_ForcesNoLine) {
+  constexpr std::uint64_t kWord = 0x12C3456;
+  const auto encoder = [](const std::string& keys) {
+    return "[[channel.slave]]\n" + keys +
+           "flag_bits = 0\ndata_bits = 25\ncrc = 0\ndata = " + std::to_string(kWord) + "\n";
+  };
+  for (const bool ssi : {true, false}) {
+    const std::string one =
+        encoder(ssi ? "protocol = \"ssi\"\ntimeout = 2\n" : "protocol = \"biss-c\"\n");
+    const std::string between = ssi ? "[[channel]]\nnumber = 2\n" : "";
+    const std::uint8_t slave = ssi ? 5 : 2;
+    Config config;
+    config.ma_hz = 10'000'000;
+    for (mb4::ChannelConfig& channel : config.channels) {
+      channel.protocol = ssi ? mb4::Protocol::kSsi : mb4::Protocol::kBissC;
+    }
+    if (!ssi) config.channels[1].protocol = mb4::Protocol::kUnused;
+    for (const unsigned number : {1U, unsigned{slave}}) {
+      config.slaves[number - 1] = {true, 25, mb4::Flags::kNone, 0};
+    }
+    config.frame_start = mb4::FrameStart::kPeriodic;
+    config.frame_period_clk = mb4::frame_period_clk_at_least(config.f_clk_hz, 200'000);
+    // Each reading of the word, at several instants of a frame.
+    for (std::size_t hit = 0; hit < 8; ++hit) {
+      for (unsigned late_us = 0; late_us < 200; late_us += 23) {
+        FaultyChip chip("[host]\nsclk_hz = 10_000_000\n[[channel]]\nnumber = 1\n" + one + between +
+                        one);
+        ASSERT_TRUE(chip.device.configure(config).ok());
+        ASSERT_TRUE(chip.device.automatic().start().ok());
+        chip.simulator.advance((300 + late_us) * mb4::sim::kPsPerUs);
+        for (unsigned i = 0; i < 20; ++i) {
+          chip.bus.plan(i == 1 ? Fault{FaultKind::kFlipMosi, hit, hit, 5} : Fault{});
+          const mb4::Result<mb4::Reading> reading = chip.device.automatic().poll_slave(slave);
+          if (i == 1 && (hit >= chip.bus.count() || chip.bus.opcodes()[hit] != 0x03)) break;
+          if (reading) {
+            ASSERT_EQ(reading->position, kWord)
+                << "ssi " << ssi << ", transfer " << hit << ", " << late_us << " us, read " << i;
+          }
+          chip.simulator.advance(200 * mb4::sim::kPsPerUs);
+        }
+      }
+    }
+  }
+}
+
 // A read between two steps of an access starts the access before once more, by INSTR = 100 in the
 // 0x07 that releases the bank. No other register of the encoder is written, and the access has
 // failed or has done what it says.

@@ -282,12 +282,12 @@ inline void Procedures::plan_take(ChipState& chip, Operation& op, std::uint8_t* 
 }
 
 // With SpiCheck::kFull each part is read in two steps, each with a witness. A disturbed opcode that
-// writes makes them differ: it writes 0x5A while the chip answers 0.
+// writes makes them differ: it writes the filler while the chip answers 0.
 inline void Procedures::add_registers(ChipState& chip, Operation& op) {
   op.stage_ = kRegisters;
   const bool full = chip.checks_all();
   add_read(op, static_cast<std::uint8_t>(regs::kAddrRdata + op.at_), part_size(op),
-           full ? 0x5A : 0);
+           full ? MB4_CYCLIC_FILLER : 0);
   if (full) {
     add_witness(op);
   }
@@ -835,7 +835,7 @@ inline Result<void> Procedures::conclude_access(ChipState& chip, Operation& op) 
 // writes makes them differ.
 inline void Procedures::add_first_register(Operation& op) {
   op.stage_ = kFirst;
-  add_read(op, regs::kAddrRdata, 1, 0x5A);
+  add_read(op, regs::kAddrRdata, 1, MB4_CYCLIC_FILLER);
   add_witness(op);
 }
 

@@ -120,7 +120,8 @@ inline void Procedures::add_compared(const ChipState& chip, Operation& op, std::
   add_read(op, address, part_bytes(address));
   if (address == kMiddlePart) {
     if (chip.automatic && chip.checks_all()) {
-      mb4_plan_add(&op.plan_, 1 + regs::kScdataStride, MB4_CYCLIC_READ0, 0x5A, 0x5A);
+      mb4_plan_add(&op.plan_, 1 + regs::kScdataStride, MB4_CYCLIC_READ0, MB4_CYCLIC_FILLER,
+                   MB4_CYCLIC_FILLER);
     }
     add_witness(op);
   }
