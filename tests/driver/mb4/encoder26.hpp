@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "mb4/config.hpp"
+#include "mb4_cyclic.h"
 #include "tests/driver/mb4/strict_bus.hpp"
 
 namespace mb4test {
