@@ -698,7 +698,7 @@ TEST(PollBesideControlFull, WordWithoutCrc_IsReadTwice) {
     bus.expect_write(kFrameAgs);
     bus.expect_read(kReadStatus, kRunsAgs);
     ASSERT_TRUE(mb4_c::PolledAccess(device).begin_read({1, 0}, 0x44, 1).ok());
-    const Bytes read = join({{0x09}, Bytes(8, MB4_CYCLIC_FILLER)});
+    const Bytes read = join({{0x09}, Bytes(8, mb4test::kFiller)});
     const Bytes word{0, 3, 2, 3, 4, 5, 6, 7, 8};
     Bytes again = word;
     if (!same) again[8] ^= 1;
@@ -878,7 +878,7 @@ TEST_F(HoldBesideControl, FlippedRegend_DoesNotEndTheAccess) {
   EXPECT_FALSE(*mb4_c::PolledAccess(device).poll());
   bus.expect_read(kReadStatus, {0, kEnded, 0, 0, 0, 0x01});
   bus.expect_read(kReadStatus, {0, kEnded, 0, 0, 0, 0x01});
-  bus.expect_read({0x03, 0x80, MB4_CYCLIC_FILLER}, {0, 0, 0x77});  // RDATA1, which take() compares
+  bus.expect_read({0x03, 0x80, mb4test::kFiller}, {0, 0, 0x77});  // RDATA1, which take() compares
   bus.expect_read(mb4test::kReadWitness, {0, kEnded, 0, 0, 0, 0x01, 0});
   mb4test::expect_rest_at_full(bus);
   EXPECT_TRUE(*mb4_c::PolledAccess(device).poll());

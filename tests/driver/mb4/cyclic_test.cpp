@@ -800,7 +800,7 @@ TEST_F(Chain, WithoutParts_ReadsAreTheSame) {
 
 TEST_F(Full, OnlyThisPart_ReadsAreTheSame) {
   start(mb4::SpiCheck::kFull);
-  const Bytes read_word = join({{0x09}, Bytes(8, MB4_CYCLIC_FILLER)});
+  const Bytes read_word = join({{0x09}, Bytes(8, mb4test::kFiller)});
   bus.expect_write(kHold);
   bus.expect_read(kReadStatus, kNew);
   bus.expect_read(read_word, kWord);
@@ -1052,7 +1052,7 @@ TEST(Timing, Table_IsThatOfThePlans) {
 // With kFull each step decides; a failed step releases the bank.
 TEST_F(Full, EachStepFails_ReleasesTheBank) {
   start(mb4::SpiCheck::kFull);
-  const Bytes read_word = join({{0x09}, Bytes(8, MB4_CYCLIC_FILLER)});
+  const Bytes read_word = join({{0x09}, Bytes(8, mb4test::kFiller)});
   const std::vector<std::vector<Bytes>> frames{
       {kHold, kReadStatus}, {read_word, kReadStatus}, {kClearValid1, kReadStatus}, {kAgs}};
   const std::vector<std::vector<Bytes>> answers{{kNew}, {kWord, kNew}, {kNone}, {}};
@@ -1079,7 +1079,7 @@ TEST_F(Full, EachStepFails_ReleasesTheBank) {
 TEST_F(Full, ReleaseProven_IsGood) {
   for (const std::uint8_t f4 : {std::uint8_t{0x01}, std::uint8_t{0x00}}) {
     start(mb4::SpiCheck::kFullAndRelease);
-    const Bytes read_word = join({{0x09}, Bytes(8, MB4_CYCLIC_FILLER)});
+    const Bytes read_word = join({{0x09}, Bytes(8, mb4test::kFiller)});
     const Bytes proven{0, 0xFA, 0, 0, 0, f4};
     plan();
     EXPECT_FALSE(step({kHold, kReadStatus}, {kNew}));

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "mb4/config.hpp"
-#include "mb4_cyclic.h"
 #include "tests/driver/mb4/strict_bus.hpp"
 
 namespace mb4test {
@@ -80,8 +79,7 @@ inline std::vector<Transfer> comparison(const Bytes& answer, const Bytes& end,
                          zeros(static_cast<std::size_t>(size))}),
                    join({zeros(2), Bytes(begin, begin + size)})});
   }
-  if (!look.empty())
-    all.push_back({join({{0x09}, Bytes(8, MB4_CYCLIC_FILLER)}), join({{0}, look})});
+  if (!look.empty()) all.push_back({join({{0x09}, Bytes(8, kFiller)}), join({{0}, look})});
   all.push_back({{0x05, 0, 0, 0, 0, 0, 0}, join({end, {answer.back()}})});
   return all;
 }

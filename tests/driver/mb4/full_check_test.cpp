@@ -35,7 +35,7 @@ const Bytes kAgs{0x07, 0x01};                      // AGS: bit 0 of 0xF4 (table 
 const Bytes kHold{0x07, 0x41};                     // and HOLDBANK, bit 6 (table 48)
 const Bytes kBreakAndInterface{0x07, 0x80, 0x00};  // BREAK: bit 7; 0xF5 as configured
 const Bytes kReadAll =
-    join({{0x09}, Bytes(8, MB4_CYCLIC_FILLER)});  // eight bytes, the CRC in the last (page 26)
+    join({{0x09}, Bytes(8, mb4test::kFiller)});  // eight bytes, the CRC in the last (page 26)
 const Bytes kAllOf = join({mb4test::kData4, {0, 0, 0, mb4test::kCrc6}});
 const Bytes kNew = status(0xFA, 0x02, 0x41);
 const Bytes kCleared = status(0xFA, 0x00, 0x41);
@@ -209,7 +209,7 @@ TEST_F(FullCheck, SvalidOfOneDisturbed_KeepsItsWord) {
   for (const bool behind : {true, false}) {
     bus.expect_write(kHold);
     bus.expect_read(kReadStatus, status(0xFA, behind ? 0x0A : 0x02, 0x41));
-    bus.expect_read(join({{0x09}, Bytes(16, MB4_CYCLIC_FILLER)}),
+    bus.expect_read(join({{0x09}, Bytes(16, mb4test::kFiller)}),
                     join({kAllOf, Bytes(kAllOf.begin() + 1, kAllOf.end())}));
     bus.expect_read(kReadStatus, status(0xFA, behind ? 0x02 : 0x0A, 0x41));
     bus.expect_write(kClearValid1);
@@ -246,13 +246,13 @@ TEST_F(FullCheck, BadWordBesideAnAccess_IsNotMarked) {
   EXPECT_FALSE(*mb4_c::PolledAccess(device).poll());  // the read has seen that it runs
   bus.expect_read(kReadStatus, done);
   bus.expect_read(kReadStatus, done);
-  bus.expect_read({0x03, 0x80, MB4_CYCLIC_FILLER}, {0, 0, 0x77});
+  bus.expect_read({0x03, 0x80, mb4test::kFiller}, {0, 0, 0x77});
   bus.expect_read(mb4test::kReadWitness, mb4test::witness(done));
   mb4test::expect_rest_at_full(bus, mb4test::rest_back(answer));
   ASSERT_TRUE(*mb4_c::PolledAccess(device).poll());
   poll(false);
   for (const bool again : {false, true}) {
-    for (const std::uint8_t filler : {std::uint8_t{MB4_CYCLIC_FILLER}, std::uint8_t{0x00}}) {
+    for (const std::uint8_t filler : {mb4test::kFiller, std::uint8_t{0x00}}) {
       bus.expect_read({0x03, 0x80, filler}, {0, 0, 0x77});
       bus.expect_read(mb4test::kReadWitness, mb4test::witness(done));
     }
@@ -379,7 +379,7 @@ TEST_F(FullCheck, ClearThatIsNotSeen_ReadsWaitForAnUnforcedLine) {
 TEST_F(FullCheck, WordByAddress_IsReadTwice) {
   configure_two(bus, device, mb4::SpiCheck::kFull);
   const Bytes& clear = kClearBoth;
-  const Bytes by_address = join({{0x03, 0x08}, Bytes(8, MB4_CYCLIC_FILLER)});
+  const Bytes by_address = join({{0x03, 0x08}, Bytes(8, mb4test::kFiller)});
   const Bytes word = join({{0}, kAllOf});
   const Bytes other = join({zeros(9), {mb4test::kCrc6}});
   // A single frame.
@@ -412,7 +412,7 @@ TEST_F(FullCheck, WordByAddress_IsReadTwice) {
   // All slaves share one frame, which begins at register 0 and sends no address.
   bus.expect_write(kHold);
   bus.expect_read(kReadStatus, status(0xFA, 0x0A, 0x41));
-  bus.expect_read(join({{0x09}, Bytes(16, MB4_CYCLIC_FILLER)}),
+  bus.expect_read(join({{0x09}, Bytes(16, mb4test::kFiller)}),
                   join({kAllOf, Bytes(kAllOf.begin() + 1, kAllOf.end())}));
   bus.expect_read(kReadStatus, status(0xFA, 0x0A, 0x41));
   bus.expect_write(clear);

@@ -64,11 +64,10 @@ const std::vector<Bytes> kAtRest{kRest, kReadRest};
 // The request of an access where that at rest is looked for.
 const Bytes kAskedBack = join({kAsked[0], Bytes(kRestBack.begin() + 6, kRestBack.end())});
 // The end of a read: RDATA1, with which the registers are compared. Then the request at rest.
-const std::vector<Bytes> kEnd{{0x03, 0x80, MB4_CYCLIC_FILLER}, kReadWitness};
+const std::vector<Bytes> kEnd{{0x03, 0x80, mb4test::kFiller}, kReadWitness};
 const std::vector<Bytes> kEnded{{0, 0, 1}, witness(kDoneAgs)};
 // SpiCheck::kFull: with a status, which no stuck line makes; and again.
-const std::vector<Bytes> kTakeFirst{{0x03, 0x80, MB4_CYCLIC_FILLER, MB4_CYCLIC_FILLER},
-                                    kReadWitness};
+const std::vector<Bytes> kTakeFirst{{0x03, 0x80, mb4test::kFiller, mb4test::kFiller}, kReadWitness};
 const std::vector<Bytes> kTakeAgain{{0x03, 0x80, 0, 0}, kReadWitness};
 
 // AGS = 1 at SpiCheck::kFull: no word waits, and nothing else has changed.
@@ -1559,8 +1558,8 @@ TEST_F(Access, DisturbedTake_LeavesNothingToTake) {
   access_ends();
   EXPECT_FALSE(step(kEnd, {{0, 0, 0}, witness(kDoneAgs)}));
   EXPECT_FALSE(step(kAtRest, {kRestBack}));
-  EXPECT_FALSE(step(kTakeFirst, {{0, 0, MB4_CYCLIC_FILLER, 2}, witness(kDoneAgs)}));
-  EXPECT_FALSE(step(kTakeAgain, {{0, 0, MB4_CYCLIC_FILLER, 2}, witness(kDoneAgs)}));
+  EXPECT_FALSE(step(kTakeFirst, {{0, 0, mb4test::kFiller, 2}, witness(kDoneAgs)}));
+  EXPECT_FALSE(step(kTakeAgain, {{0, 0, mb4test::kFiller, 2}, witness(kDoneAgs)}));
   EXPECT_TRUE(compared());
   ends_with(Error::kCorrupted);
   EXPECT_EQ(mb4_c::PolledAccess(device).take(mb4::Span<std::uint8_t>(out.data(), 2)).error(),

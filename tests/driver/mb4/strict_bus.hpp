@@ -24,6 +24,10 @@ namespace mb4test {
 
 using Bytes = std::vector<std::uint8_t>;
 
+// What kFull sends while data is read: not 0, and in 0xF5 it forces no line and keeps ENTEST = 0
+// (MAVO and MAVS alone; tables 51 to 53, page 33).
+constexpr std::uint8_t kFiller = 0xA0;
+
 inline std::string hex(const Bytes& bytes) {
   std::ostringstream text;
   for (const std::uint8_t byte : bytes) {

@@ -37,6 +37,7 @@
 #include <utility>
 
 #include "chip_edges.hpp"
+#include "sim/masters/mb4/ma_frequency.hpp"
 #include "sim/model/model_rest.hpp"
 
 namespace mb4::sim {
@@ -170,8 +171,8 @@ class DirectSteps {
   // Takes the edges that fit what runs.
   [[gnu::noinline]] void choose(const Root& root) {
     to_choice_ = kChoice;
-    const unsigned len = root.mb4_chip__DOT__u_engine__DOT__u_lines__DOT__u_timebase__DOT__len_q;
-    const unsigned clocks = ((len & 0xFU) + 1) * ((len & 0x10U) != 0 ? 10 : 1);
+    const unsigned clocks =
+        half_ma_clocks(root.mb4_chip__DOT__u_engine__DOT__u_lines__DOT__u_timebase__DOT__len_q);
     const bool second =
         (root.mb4_chip__DOT__u_engine__DOT__u_control__DOT__u_sequencer__DOT__use_q & 2U) != 0;
     alone_ = second ? 0 : std::min(alone_ + 1, kAlone);

@@ -6,7 +6,6 @@
 
 #include "chip_signals.hpp"
 #include "direct_steps.hpp"
-#include "sim/model/whole_models.hpp"
 #include "verilated_chip.hpp"
 
 namespace mb4::sim {
